@@ -138,8 +138,7 @@ Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& follow
         fmt::format("{:.2f} s: {} characters reach the targets of hands and feet; the others are pale",
                     frame * every / rate_hz, met));
   };
-  return EncodeFedFrames(options.output, frames, std::max(1, static_cast<int>(std::lround(rate_hz / every))),
-                         {count * sizeof(Character), fill}, draw, watch);
+  return EncodeFedFrames(options.output, frames, rate_hz / every, {count * sizeof(Character), fill}, draw, watch);
 }
 
 /// Solves the poses of the crowd frame by frame, and makes the film if one was requested. Prints and returns the

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
+#include "engine/base/names.h"
 #include "engine/streams/stream_maker.h"
 #include "io/files/files.h"
 #include "sim/skeleton_sensor/options.h"
@@ -92,10 +94,12 @@ std::string DescribeTurn(const JointRecording& recording) {
                      level.trunk_deg);
 }
 
+std::string AsAddition(const std::string& remark) { return remark.empty() ? "" : "; " + remark; }
+
 std::string DescribeRecording(const JointRecording& recording) {
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joint positions are missing{}",
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joint positions are missing{}{}",
                      recording.frames.size(), recording.rate_hz, recording.DurationSeconds(),
-                     100 * MissingShare(recording), DescribeTurn(recording));
+                     100 * MissingShare(recording), DescribeTurn(recording), AsAddition(recording.remark));
 }
 
 Json FactsOf(const std::string& file, const JointRecording& recording) {
@@ -103,11 +107,25 @@ Json FactsOf(const std::string& file, const JointRecording& recording) {
           {"frames", recording.frames.size()},
           {"rate_hz", recording.rate_hz},
           {"duration_s", recording.DurationSeconds()},
-          {"missing_share", MissingShare(recording)}};
+          {"missing_share", MissingShare(recording)},
+          {"remark", recording.remark.empty() ? Json() : Json(recording.remark)}};
+}
+
+/// Returns the duration of the frames in which recording and reference show a common joint.
+double OverlapSeconds(const RealRecording& real) {
+  double frames = 0;
+  for (std::size_t t = 0; t < real.recording.frames.size(); ++t) {
+    const auto &sensed = real.recording.frames[t], &truth = real.match.truth[t];
+    frames += std::ranges::any_of(AllRoles(), [&](Role role) { return sensed[Index(role)] && truth[Index(role)]; });
+  }
+  return frames / real.recording.rate_hz;
 }
 
 Json FactsOf(const RealRecording& real) {
-  return {{"begins_s", -real.match.alignment.shift_s}, {"rms_m", real.match.alignment.rms_m}};
+  return {{"begins_s", -real.match.alignment.shift_s},
+          {"overlap_s", OverlapSeconds(real)},
+          {"rms_m", real.match.alignment.rms_m},
+          {"remark", real.twin.remark.empty() ? Json() : Json(real.twin.remark)}};
 }
 
 Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within}, {"compared", agreement.compared}}; }
@@ -115,9 +133,10 @@ Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within},
 std::string DescribeMatch(const RealRecording& real) {
   const TwinAlignment& alignment = real.match.alignment;
   return fmt::format(
-      "{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording; RMS distance {:.1f} mm after alignment",
-      real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
-      1000 * alignment.rms_m);
+      "{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s after the recording, so the two share {:.1f} s; RMS distance "
+      "{:.1f} mm after alignment{}",
+      real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s, OverlapSeconds(real),
+      1000 * alignment.rms_m, AsAddition(real.twin.remark));
 }
 
 struct SensorStatsOptions {
@@ -261,9 +280,9 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Jso
   fmt::print("\nThe two halves of the recording, compared:\n{}",
              StatisticsTable({{"first half", StatisticsOf(*first)}, {"second half", StatisticsOf(*second)}}, true));
   checks.push_back(PrintComparison("Sensor fitted to the first half, compared with the second half:", "second half",
-                                   *second, FitSensor(*first, options)));
+                                   *second, FitSensor(*first, options).sensor));
   checks.push_back(PrintComparison("Sensor fitted to the second half, compared with the first half:", "first half",
-                                   *first, FitSensor(*second, options)));
+                                   *first, FitSensor(*second, options).sensor));
 }
 
 Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
@@ -276,7 +295,7 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
 
   // Fit the sensor, and write the sensor file.
   const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
-  const SkeletonSensorOptions sensor = FitSensor(real, fit);
+  const auto [sensor, at_bounds] = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
   const std::string text = fmt::format("# Fitted by `etude sensor fit` to {:.1f} s, {} frames\n",
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
@@ -288,12 +307,17 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
       "Sensor fitted to the whole recording, compared with the recording (new random numbers):", "real", real, sensor));
   PrintHalves(real, fit, checks);
   fmt::print("\n");
+  if (!at_bounds.empty()) {
+    fmt::print("{} settings are at the limit of what the fit allows, so the sensor does not fit: {}\n",
+               at_bounds.size(), Join(at_bounds));
+  }
   TellWritten(options.output);
   aside.End();
   if (!options.as_json) return kSuccess;
   RETURN_IF_ERROR(PrintFacts("sensor fit", {{"recordings", Json::array({FactsOf(options.file, real.recording)})},
                                             {"match", FactsOf(real)},
                                             {"checks", std::move(checks)},
+                                            {"at_limits", at_bounds},
                                             {"output", options.output}}));
   return kSuccess;
 }

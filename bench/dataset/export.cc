@@ -213,7 +213,7 @@ class Exporter {
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(path, setting.error());
     const double rate_hz = setting->json->value("rate_hz", 30.0);
-    const auto saved = SaveTakeFilms(problem.files, static_cast<int>(std::lround(rate_hz)), folder_ / "inputs" / path);
+    const auto saved = SaveTakeFilms(problem.files, rate_hz, folder_ / "inputs" / path);
     return saved ? saved : About(path, saved.error());
   }
 

@@ -24,7 +24,7 @@ std::string_view TakeOf(std::string_view name) {
 
 bool IsPictureOfTake(std::string_view name) { return !TakeOf(name).empty(); }
 
-Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder) {
+Result<void> SaveTakeFilms(std::span<const Attachment> files, double rate_hz, const FilePath& folder) {
   std::optional<Encoder> film;
   std::string_view filmed;
   for (const Attachment& file : files) {

@@ -15,6 +15,6 @@ bool IsPictureOfTake(std::string_view name);
 /// Writes each take among `files` as a lossless film into `folder`: the consecutive pictures `camera-1-0000.png`,
 /// `camera-1-0001.png`, … become the frames of `camera-1.mkv`, at `rate_hz` frames per second. Fails if a PNG file is
 /// invalid or ffmpeg fails.
-Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder);
+Result<void> SaveTakeFilms(std::span<const Attachment> files, double rate_hz, const FilePath& folder);
 
 }  // namespace etude

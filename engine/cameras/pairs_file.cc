@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 constexpr std::size_t kMaxCameras = 64;
 constexpr std::string_view kHeading = "camera,x,y,z,u,v";
-/// The offset from OpenCV's pixel coordinates: the centre of our first pixel is (0.5, 0.5).
-constexpr double kFromOpenCv = 0.5;
 
 using Five = std::array<double, 5>;
 

@@ -9,6 +9,10 @@
 
 namespace etude {
 
+/// The offset of our pixel coordinates from those of the file, which are OpenCV's: the centre of our first pixel is
+/// (0.5, 0.5).
+inline constexpr double kFromOpenCv = 0.5;
+
 /// The point pairs for calibrating one camera.
 struct CameraPairs {
   std::string name;

@@ -170,8 +170,9 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   return SlotOf(worker, workers_[worker].taken).picture;
 }
 
-Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
-                          const FilmWatch& watch, const std::filesystem::path& sound) {
+Result<bool> EncodeFrames(const FilePath& path, int frames, double rate_hz,
+                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
+                          const std::filesystem::path& sound) {
   const auto draw_alone = [&](int frame, std::span<const std::uint8_t>) { return draw(frame); };
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw_alone));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, sound);

@@ -140,8 +140,9 @@ class Scene {
 
 /// Draws frames with FilmWorkers and encodes them into `path`, with a sound file unless `sound` is empty. Returns
 /// false, and leaves no file, if `watch` stopped the film.
-Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
-                          const FilmWatch& watch, const std::filesystem::path& sound = {});
+Result<bool> EncodeFrames(const FilePath& path, int frames, double rate_hz,
+                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
+                          const std::filesystem::path& sound = {});
 /// Works like EncodeFrames without sound, for frames that are drawn from the data of `feed`.
 Result<bool> EncodeFedFrames(const FilePath& path, int frames, double rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);

@@ -148,10 +148,24 @@ class Capture(EtudeCase):
         self.assertLess(found["middle"]["rms_without_px"], .6)
         said = self.ends(0, "calibrate", written(bad), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
         self.assertRegex(said, r"pair 5 disagrees with the other pairs. A calibration without this pair projects the point \(.*\)\n  1[0-4]\.\d px away from the pixel")
+        u, v = map(float, re.search(r"away from the pixel \(([\d.]+), ([\d.]+)\)", said).groups())
+        self.assertAlmostEqual(u, fifth[4], delta=.01, msg="as in the file, where the centre of the first pixel is (0, 0)")
+        self.assertAlmostEqual(v, fifth[5], delta=.01)
         millimetres = self.ends(0, "calibrate", written(noisy, 1000), "--size", size, "--lens", "none", "--overwrite", "-o", self.rig).stdout
         self.assertRegex(millimetres, r"middle: the camera is \d{4} m from the first point of its pairs; points must be in metres, and may be in millimetres here")
         self.assertRegex(self.refusal("calibrate", self.pairs, "--size", "160x120", "--overwrite", "-o", self.rig),
                          r"camera left: the pixel \(.*\) is outside the picture of 160x120 pixels; check the pixel and the picture size")
+
+    def test_pixels_reach_half_a_pixel_beyond_the_centres_of_the_first_and_last_pixel(self):
+        heading, *lines = self.pairs.read_text().splitlines()
+        x, y, z = lines[0].split(",")[1:4]
+        def calibrated(u, v):
+            edge = self.write("edge.csv", "\n".join([heading, f"left,{x},{y},{z},{u},{v}", *lines]) + "\n")
+            return self.etude("calibrate", edge, "--size", f"{WIDTH}x{HEIGHT}", "--overwrite", "-o", self.rig).stderr
+        for u, v in ((WIDTH - .7, 10), (10, HEIGHT - .6), (-.4, 10), (10, -.4)):
+            self.assertNotIn("is outside the picture", calibrated(u, v), f"{u}, {v}")
+        for u, v in ((WIDTH - .4, 10), (10, HEIGHT - .3), (-.7, 10), (10, -.6)):
+            self.assertIn(f"the pixel ({u:g}, {v:g}) is outside the picture of {WIDTH}x{HEIGHT} pixels", calibrated(u, v))
 
     def test_tells_programs_what_was_calibrated(self):
         told = self.facts("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "--overwrite", "-o", self.rig)

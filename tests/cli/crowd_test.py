@@ -46,6 +46,15 @@ class Crowd(EtudeCase):
         self.assertEqual(self.etude("crowd", *FEW, "-o", self.folder / "a.mp4").returncode, 2, "a file that is there")
         self.assertEqual((self.folder / "a.mp4").read_bytes(), films[0])
 
+    @heavy
+    def test_a_film_lasts_as_long_as_the_motion_at_rates_that_do_not_divide(self):
+        # 45 Hz gives 22.5 frames a second of film: every second frame.
+        film = self.folder / "45.mp4"
+        self.ends(0, "crowd", "--characters", "2", "--seconds", "0.4", "--rate", "45", "-o", film)
+        probe = subprocess.run(["ffprobe", "-v", "error", "-of", "csv=p=0", "-show_entries", "stream=r_frame_rate,nb_frames", film],
+                               capture_output=True, text=True, timeout=600, check=True)
+        self.assertEqual(probe.stdout.strip(), "45/2,9")
+
     def test_refuses_in_one_line(self):
         for arguments, says in ((("--characters", "0"), "--characters"),
                                 (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz give 3 frames; allowed: 4 frames or more"),

@@ -55,12 +55,11 @@ Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras)
 Result<void> CheckPixels(const CameraPairs& of, const std::string& file) {
   for (const PointPair& pair : of.pairs) {
     const glm::dvec2& p = pair.pixel;
-    const bool is_inside = p.x >= -0.5 && p.y >= -0.5 && p.x <= of.width - 0.5 && p.y <= of.height - 0.5;
-    if (is_inside) continue;
+    if (p.x >= 0 && p.y >= 0 && p.x <= of.width && p.y <= of.height) continue;
     return Fail({file},
                 "camera {}: the pixel ({:g}, {:g}) is outside the picture of {}x{} pixels; check the pixel and the "
-                "picture size",
-                of.name, p.x, p.y, of.width, of.height);
+                "picture size (the centre of the first pixel is (0, 0))",
+                of.name, p.x - kFromOpenCv, p.y - kFromOpenCv, of.width, of.height);
   }
   return {};
 }
@@ -168,8 +167,8 @@ std::string TextOf(const Calibrated& rig) {
           "  pair {} disagrees with the other pairs. A calibration without this pair projects the point ({:g}, {:g}, "
           "{:g})\n"
           "  {:.1f} px away from the pixel ({:g}, {:g}), and has a reprojection error of {:.3f} px RMS\n",
-          pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px, pair.pair.pixel.x,
-          pair.pair.pixel.y, pair.rms_without_px);
+          pair.index + 1, pair.pair.world.x, pair.pair.world.y, pair.pair.world.z, pair.error_px,
+          pair.pair.pixel.x - kFromOpenCv, pair.pair.pixel.y - kFromOpenCv, pair.rms_without_px);
     }
     text += fmt::format("  position         {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
     text += fmt::format("  as in paper B    f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",

@@ -144,7 +144,7 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
   ViewBounds bounds;
   shot.Include(SpreadFrames(shot, kLookedAt), bounds);
   Studio studio(options.width, options.height, kDetail, bounds);
-  const auto rate = static_cast<int>(std::lround(shot.actor().motion().rate_hz));
+  const double rate = shot.actor().motion().rate_hz;
   const Box whole{0, 0, static_cast<double>(options.width), static_cast<double>(options.height)};
   const std::string words = FactsAsLine(facts);
   const auto draw = [&](int frame) {

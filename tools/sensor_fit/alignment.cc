@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/nearest_rotation.h"
 
@@ -136,9 +137,11 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Returns Pearson's correlation of a[t] and b[t + lag]; nullopt if the two series overlap for less than a second.
-std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
-                                    const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
+/// Returns how clearly a[t] and b[t + lag] are correlated: Pearson's correlation in its standard deviations by chance,
+/// 1 / √n. A high correlation of a short overlap, which chance gives easily, counts less than one of a long overlap.
+/// Returns nullopt if the two series overlap for less than a second.
+std::optional<double> ClarityAt(const std::vector<std::optional<double>>& a,
+                                const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   for (long t = std::max(0L, -lag); t < static_cast<long>(a.size()) && t + lag < static_cast<long>(b.size()); ++t) {
     const auto &x = a[static_cast<std::size_t>(t)], &y = b[static_cast<std::size_t>(t + lag)];
@@ -152,19 +155,19 @@ std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
   }
   const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
   if (n < rate_hz || va <= 0 || vb <= 0) return std::nullopt;
-  return (sab - sa * sb / n) / std::sqrt(va * vb);
+  return (sab - sa * sb / n) / std::sqrt(va * vb) * std::sqrt(n);
 }
 
-/// Finds the shift with the highest correlation of speeds. At least half of the shorter recording must overlap.
+/// Finds the shift with the clearest correlation of speeds. At least half of the shorter recording must overlap.
 double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
   const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), min_overlap = std::min(na, nb) / 2;
-  double best = -2;
+  double best = -std::numeric_limits<double>::infinity();
   long best_lag = 0;
   for (long lag = min_overlap - na; lag <= nb - min_overlap; ++lag) {
-    const auto correlation = CorrelationAt(a, b, lag, recording.rate_hz);
-    if (correlation && *correlation > best) {
-      best = *correlation;
+    const auto clarity = ClarityAt(a, b, lag, recording.rate_hz);
+    if (clarity && *clarity > best) {
+      best = *clarity;
       best_lag = lag;
     }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/angles.h"
@@ -70,22 +71,31 @@ Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intri
 
 constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial = 0};
 
-/// Multiplies `value` by real ÷ simulated, limited to 1/3…3, and clamps the product to the range that a sensor file
-/// allows.
-void Scale(double& value, const std::optional<double>& real, const std::optional<double>& simulated, Range allowed) {
+/// The settings that are at a bound after a step, as messages list them.
+using Bounds = std::vector<std::string>;
+
+/// Multiplies `value` by real ÷ simulated, limited to 1/3…3, and clamps the product to the range that the fit allows.
+/// If the range limits the value, adds `name` to `bounds`.
+void Scale(const std::string& name, double& value, const std::optional<double>& real,
+           const std::optional<double>& simulated, Range allowed, Bounds& bounds) {
   if (!real || !simulated || *real <= 0 || *simulated <= 0) return;
   constexpr double kMaxFactor = 3;
-  value =
-      std::clamp(value * std::clamp(*real / *simulated, 1 / kMaxFactor, kMaxFactor), allowed.lowest, allowed.highest);
+  const double wanted = value * std::clamp(*real / *simulated, 1 / kMaxFactor, kMaxFactor);
+  value = std::clamp(wanted, allowed.lowest, allowed.highest);
+  if (value != wanted) bounds.push_back(fmt::format("{} {:g}", name, value));
 }
 
-void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
+void FitGroups(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor,
+               Bounds& bounds) {
   for (const JointGroup group : AllJointGroups()) {
     const std::size_t g = Index(group);
-    if (group != JointGroup::kFeet) Scale(sensor[group].size, real.error_mm[g], simulated.error_mm[g], {0.001, 0.5});
-    Scale(sensor[group].depth_ratio, real.depth_ratio[g], simulated.depth_ratio[g], {0.2, 5});
+    const std::string of = fmt::format("groups.{}.", GroupName(group));
+    if (group != JointGroup::kFeet)
+      Scale(of + "size_m", sensor[group].size, real.error_mm[g], simulated.error_mm[g], {0.001, 0.5}, bounds);
+    Scale(of + "depth_ratio", sensor[group].depth_ratio, real.depth_ratio[g], simulated.depth_ratio[g], {0.2, 5},
+          bounds);
   }
-  Scale(sensor.planted_feet, real.planted_feet_mm, simulated.planted_feet_mm, {0.0001, 0.1});
+  Scale("planted_feet_m", sensor.planted_feet, real.planted_feet_mm, simulated.planted_feet_mm, {0.0001, 0.1}, bounds);
 }
 
 void FitCorrelations(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
@@ -98,22 +108,28 @@ void FitCorrelations(const SensorStatistics& real, const SensorStatistics& simul
   }
 }
 
-void FitQuiet(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
+void FitQuiet(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor,
+              Bounds& bounds) {
   if (!real.quiet_white_mm || !simulated.quiet_white_mm || *simulated.quiet_white_mm <= 0) return;
-  for (GroupErrors& group : sensor.groups) {
-    Scale(group.white, real.quiet_white_mm, simulated.quiet_white_mm, {0, 0.05});
+  for (const JointGroup group : AllJointGroups()) {
+    Scale(fmt::format("groups.{}.white_m", GroupName(group)), sensor[group].white, real.quiet_white_mm,
+          simulated.quiet_white_mm, {0, 0.05}, bounds);
   }
-  Scale(sensor.fast_quiet, real.quiet_white_mm, simulated.quiet_white_mm, {0, 1});
+  Scale("fast_quiet", sensor.fast_quiet, real.quiet_white_mm, simulated.quiet_white_mm, {0, 1}, bounds);
 }
 
-void FitFastPart(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
-  Scale(sensor.fast_share, real.hand_jump_cm, simulated.hand_jump_cm, {0.01, 0.8});
+void FitFastPart(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor,
+                 Bounds& bounds) {
+  Scale("fast_share", sensor.fast_share, real.hand_jump_cm, simulated.hand_jump_cm, {0.01, 0.8}, bounds);
 }
 
-void FitStretch(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
-  Scale(sensor.arm_stretch, real.arm_bones_percent, simulated.arm_bones_percent, {0.02, 4});
-  Scale(sensor.shoulder_stretch, real.shoulder_width_percent, simulated.shoulder_width_percent, {0.02, 4});
-  Scale(sensor.hand_stretch, real.hand_bones_percent, simulated.hand_bones_percent, {0.02, 4});
+void FitStretch(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor,
+                Bounds& bounds) {
+  constexpr Range kStretch{0.02, 4};
+  Scale("arm_stretch", sensor.arm_stretch, real.arm_bones_percent, simulated.arm_bones_percent, kStretch, bounds);
+  Scale("shoulder_stretch", sensor.shoulder_stretch, real.shoulder_width_percent, simulated.shoulder_width_percent,
+        kStretch, bounds);
+  Scale("hand_stretch", sensor.hand_stretch, real.hand_bones_percent, simulated.hand_bones_percent, kStretch, bounds);
 }
 
 double MeanDistance(const RealRecording& real) {
@@ -176,6 +192,34 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
   return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
 }
 
+namespace {
+
+/// Describes clocks that run at different speeds: each half of the recording fits the twin clearly better than the
+/// whole does, at its own shift in time. Returns "" if they do not.
+std::string DescribeDrift(const RealRecording& real) {
+  constexpr double kMaxShift_s = 1, kMinDrift_s = 0.1, kBetter = 0.85, kMinRms_m = 0.05;
+  const auto& [recording, twin, match] = real;
+  if (match.alignment.rms_m < kMinRms_m) return "";
+  const std::size_t half = recording.frames.size() / 2;
+  const double half_s = static_cast<double>(half) / recording.rate_hz;
+  std::array<double, 2> shifts{};
+  for (const std::size_t i : {0, 1}) {
+    TwinAlignment start = match.alignment;
+    start.shift_s += static_cast<double>(i) * half_s;
+    const auto own = RealignTwin(Excerpt(recording, i * half, (i + 1) * half), twin, start, kMaxShift_s);
+    if (!own || own->alignment.rms_m > kBetter * match.alignment.rms_m) return "";
+    shifts[i] = own->alignment.shift_s - start.shift_s;
+  }
+  const double drift_s = shifts[1] - shifts[0];
+  if (std::abs(drift_s) < kMinDrift_s) return "";
+  return fmt::format(
+      "the two halves of the recording fit the reference at shifts in time that differ by {:.2f} s, as if the "
+      "reference's clock is {:.0f} % {}; the frame rate of one file may be wrong (--rate, --reference-rate)",
+      std::abs(drift_s), 100 * std::abs(drift_s) / half_s, drift_s < 0 ? "slow" : "fast");
+}
+
+}  // namespace
+
 std::string DescribeMismatch(const RealRecording& real) {
   constexpr double kMaxRatio = 2, kMax_m = 0.3, kMinMirror_m = 0.05, kMirror = 0.5;
   constexpr double kMinMovement_m = 0.1, kClearly = 0.7;
@@ -220,6 +264,7 @@ std::string DescribeMismatch(const RealRecording& real) {
         "motion is the same, the frame rate of one file may be wrong (--rate, --reference-rate)",
         1000 * rms_m, 1000 * *chance);
   }
+  if (std::string drift = DescribeDrift(real); !drift.empty()) return drift;
   if (rms_m <= kMax_m) return "";
   return fmt::format(
       "the RMS distance after alignment is {:.1f} mm; allowed for recordings of the same motion: at most {:g} mm",
@@ -255,23 +300,25 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
   return Summarise(recordings);
 }
 
-SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options) {
+FittedSensor FitSensor(const RealRecording& real, const SensorFitOptions& options) {
   // Start from the given sensor, at the distance measured in the recording.
   const SensorStatistics measured = StatisticsOf(real);
-  SkeletonSensorOptions sensor = options.start;
+  FittedSensor fitted{.sensor = options.start, .at_bounds = {}};
+  SkeletonSensorOptions& sensor = fitted.sensor;
   if (const double distance = MeanDistance(real); distance > 0) sensor.reference_distance_m = distance;
   // In each step, compare the statistics of the recording and of the simulation. Correct each setting by the ratio or
   // the difference of the statistic that depends on it.
   for (int step = 0; step < options.steps; ++step) {
     const SensorStatistics simulated = SimulatedStatistics(real, sensor, options.worlds, kFitWorlds).mean;
-    FitGroups(measured, simulated, sensor);
+    fitted.at_bounds.clear();
+    FitGroups(measured, simulated, sensor, fitted.at_bounds);
     FitCorrelations(measured, simulated, sensor);
-    FitQuiet(measured, simulated, sensor);
-    FitFastPart(measured, simulated, sensor);
-    FitStretch(measured, simulated, sensor);
+    FitQuiet(measured, simulated, sensor, fitted.at_bounds);
+    FitFastPart(measured, simulated, sensor, fitted.at_bounds);
+    FitStretch(measured, simulated, sensor, fitted.at_bounds);
     if (options.progress) options.progress(step);
   }
-  return sensor;
+  return fitted;
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/options.h"
@@ -46,12 +47,19 @@ struct SensorFitOptions {
   std::function<void(int step)> progress;
 };
 
+struct FittedSensor {
+  SkeletonSensorOptions sensor;
+  /// The settings that the last step would have moved beyond the range that the fit allows, each with its value, such
+  /// as "groups.hands.size_m 0.5": the fitted sensor does not reproduce the recording in these.
+  std::vector<std::string> at_bounds;
+};
+
 /// Fits a sensor by the method of moments, so that its simulated recordings of the twin's motion have the statistics of
 /// the real recording. Each step simulates, compares and corrects. The fitted settings are: each group's size and depth
 /// ratio, planted feet, correlations along bones, the white noise and the fast noise at rest, the share of fast errors
 /// (from the jumps of the hands), the stretch of shoulders, arms and hands, and the reference distance. All other
 /// settings keep their values, because one recording does not determine them. The settings of groups that were never
 /// seen also keep their values. The result is deterministic.
-SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
+FittedSensor FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
+#include "engine/base/order_statistics.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/rigid_targets.h"
+#include "engine/formats/row_clock.h"
 
 namespace etude {
 namespace {
@@ -94,9 +99,56 @@ class BoneFrames {
   std::optional<glm::dquat> trunk_;
 };
 
-TwinMotion TwinOfJoints(const JointCsv& csv) {
+/// Fails if the bones of the body are longer or shorter than those of any person.
+Result<void> CheckBones(const std::vector<RolePositions>& frames, const std::string& file) {
+  constexpr double kMinLongest_m = 0.02, kMaxBone_m = 1.5;
+  double longest = 0;
+  Role end = Role::kHead;
+  for (const Role role : AllRoles()) {
+    std::vector<double> lengths;
+    for (const RolePositions& places : frames) {
+      const auto parent = ParentOf(role);
+      if (!parent || !places[Index(role)] || !places[Index(*parent)]) continue;
+      lengths.push_back(glm::distance(*places[Index(role)], *places[Index(*parent)]));
+    }
+    if (lengths.empty()) continue;
+    if (const double length = Median(std::move(lengths)); length > longest)
+      std::tie(longest, end) = std::pair(length, role);
+  }
+  if (longest == 0 || (longest >= kMinLongest_m && longest <= kMaxBone_m)) return {};
+  return Fail({file},
+              "the longest bone, from {} to {}, has {:.3g} m; allowed: {:g} to {:g} m, with positions in metres",
+              RoleName(*ParentOf(end)), RoleName(end), longest, kMinLongest_m, kMaxBone_m);
+}
+
+/// The rows of a joint CSV on even frames. `rate_hz` is nullopt if the file has no times.
+struct LaidCsv {
+  std::optional<double> rate_hz;
+  std::vector<RolePositions> frames;
+  std::string remark;
+};
+
+/// Reads a joint CSV. With `rate_hz`, the times only say which rows are missing; if they cannot be used, frame numbers
+/// say it.
+Result<LaidCsv> ReadLaidCsv(std::string_view text, const std::string& file, std::optional<double> rate_hz) {
+  ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
+  auto laid = LayOnClock(csv, file);
+  if (!laid && rate_hz) {
+    csv.times_s.assign(csv.times_s.size(), std::numeric_limits<double>::quiet_NaN());
+    csv.rate_hz.reset();
+    laid = LayOnClock(csv, file);
+  }
+  if (!laid) return tl::unexpected(laid.error());
+  LaidCsv made{.rate_hz = rate_hz, .frames = {}, .remark = std::move(laid->remark)};
+  if (!rate_hz && csv.rate_hz) made.rate_hz = laid->rate_hz;
+  for (const auto& places : laid->frames) std::ranges::copy(places, made.frames.emplace_back().begin());
+  RETURN_IF_ERROR(CheckBones(made.frames, file));
+  return made;
+}
+
+TwinMotion TwinOfJoints(const std::vector<RolePositions>& joints) {
   TwinMotion twin;
-  for (const RolePositions& places : csv.frames) {
+  for (const RolePositions& places : joints) {
     const BoneFrames bones(places);
     auto& frame = twin.frames.emplace_back();
     for (const Role role : AllRoles()) frame[Index(role)] = bones.Of(role);
@@ -124,9 +176,10 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
                                           std::optional<double> rate_hz) {
   JointRecording recording;
   if (IsJointCsv(text)) {
-    ASSIGN_OR_RETURN(auto csv, ReadJointCsv(text, file));
+    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz));
     recording.frames = std::move(csv.frames);
-    recording.rate_hz = rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
+    recording.rate_hz = csv.rate_hz.value_or(kJudgedRateHz);
+    recording.remark = std::move(csv.remark);
   } else {
     ASSIGN_OR_RETURN(const auto frames, ReadKinectV2Text(text, file));
     for (const KinectV2Frame& frame : frames) recording.frames.push_back(PlacesOf(frame));
@@ -139,9 +192,10 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds) {
   if (IsJointCsv(text)) {
-    ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, file));
-    TwinMotion twin = TwinOfJoints(csv);
-    twin.rate_hz = rate_hz ? *rate_hz : csv.rate_hz ? *csv.rate_hz : UsualRate(twin.frames.size(), seconds);
+    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz));
+    TwinMotion twin = TwinOfJoints(csv.frames);
+    twin.rate_hz = csv.rate_hz ? *csv.rate_hz : UsualRate(twin.frames.size(), seconds);
+    twin.remark = std::move(csv.remark);
     return twin;
   }
   ASSIGN_OR_RETURN(const auto targets, ReadRigidTargets(text, file));

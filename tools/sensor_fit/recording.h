@@ -21,6 +21,7 @@ struct JointRecording {
   std::vector<RolePositions> frames;
   /// The position of the sensor in the recording's coordinate frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
+  std::string remark = "";  ///< a message for the user about the file's times; "" if there is none
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
@@ -36,19 +37,22 @@ struct Carrier {
 struct TwinMotion {
   double rate_hz = 60;
   std::vector<std::array<std::optional<Carrier>, kRoleCount>> frames;
+  std::string remark = "";  ///< a message for the user about the file's times; "" if there is none
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
 };
 
-/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV (at the rate of the file's times unless
-/// `rate_hz` is given). The first row decides the format. A failure states the file, the line and what is allowed.
+/// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV. The first row decides the format. The
+/// rows of a CSV are placed on even frames by their times (LayOnClock); in a frame whose row is missing, no joint is
+/// seen. `rate_hz` replaces the rate of the times. A failure states the file, the line and what is allowed; so do bones
+/// of a length that no person has, because then the positions are not in metres.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 
-/// Reads a file of 17 rigid targets, or a joint CSV. For a joint CSV, the trunk is the rigid body of the trunk's
-/// joints; for every other joint, the bone from the parent joint is the rigid body. The rate is `rate_hz` if it is
-/// given, otherwise the rate of the file's times. If the file has no times, the rate is chosen among 30, 50, 60, 100,
-/// 120, 200 and 240 Hz, so that the duration is closest to `seconds`.
+/// Reads a file of 17 rigid targets, or a joint CSV (as ReadJointRecording does). For a joint CSV, the trunk is the
+/// rigid body of the trunk's joints; for every other joint, the bone from the parent joint is the rigid body. The rate
+/// is `rate_hz` if it is given, otherwise the rate of the file's times. If the file has no times, the rate is chosen
+/// among 30, 50, 60, 100, 120, 200 and 240 Hz, so that the duration is closest to `seconds`.
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 

@@ -27,6 +27,21 @@ TEST(AlignTwin, FindsShiftRotationAndOffsetsOfAPerfectRecording) {
   EXPECT_LT(worst, 1e-3);
 }
 
+TEST(AlignTwin, OfAMotionThatRepeatsTakesTheShiftAtWhichTheWholeTakeOverlaps) {
+  // The motion comes twice. A shift by its length leaves the noisy beginning out, and half of the recording with it.
+  const std::vector<std::string> moves = {"boxing", "side_kick"};
+  const BodyMotion once = AfterEachOther(moves);
+  const double seconds = static_cast<double>(once.poses.size() - 1) / once.rate_hz;
+  const TwinMotion twin = DancingTwin(2 * seconds, 1, moves);
+  JointRecording recording = PerfectRecording(twin, 2 * seconds - 0.1, {.shift_s = 0});
+  RandomStream dice({.suite_seed = 1, .scenario = "repeats", .trial = 0}, "noise");
+  for (std::size_t t = 0; t < recording.frames.size() / 4; ++t) {
+    for (auto& place : recording.frames[t]) *place += 0.02 * dice.Normal3();
+  }
+  ASSERT_OK(match, AlignTwin(recording, twin));
+  EXPECT_NEAR(match->alignment.shift_s, 0, 0.02);
+}
+
 TEST(AlignTwin, LeavesWhatTheSensorErrs) {
   const TwinMotion twin = DancingTwin(9);
   JointRecording recording = PerfectRecording(twin, 7, {});

@@ -1,6 +1,6 @@
 #include "tools/sensor_fit/fit.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "sim/skeleton_sensor/options.h"
 #include "tests/support/results.h"
@@ -38,7 +38,7 @@ constexpr WorldKey kOtherDice{.suite_seed = 9, .scenario = "held-out", .trial = 
 TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
   ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9)));
   const SensorFitOptions options{.start = SensorV2(), .worlds = 10, .steps = 6, .progress = {}};
-  const SkeletonSensorOptions fitted = FitSensor(*real, options);
+  const SkeletonSensorOptions fitted = FitSensor(*real, options).sensor;
   const SensorStatistics measured = StatisticsOf(*real);
   const auto agreement = [&](const SkeletonSensorOptions& sensor) {
     return AgreementOf(measured, SimulatedStatistics(*real, sensor, 12, kOtherDice).mean);
@@ -66,6 +66,8 @@ TEST(DescribeMismatch, OfAnotherUnitAMirrorImageOrAnotherMotionIsToldAndOfATrueR
   ASSERT_OK(slower, MakeRealRecording(real->recording, DancingTwin(9, 0.8)));
   EXPECT_NE(DescribeMismatch(*slower).find("the frame rate of one file may be wrong"), std::string::npos)
       << DescribeMismatch(*slower);
+  EXPECT_NE(DescribeMismatch(*slower).find("the reference's clock is 2"), std::string::npos)
+      << DescribeMismatch(*slower);
   for (auto& frame : changed.twin.frames) {
     for (auto& carrier : frame) {
       if (carrier) carrier->position *= 1000.0;
@@ -79,7 +81,8 @@ TEST(DescribeMismatch, OfAnotherUnitAMirrorImageOrAnotherMotionIsToldAndOfATrueR
 TEST(FitSensor, IsTheSameEveryTime) {
   ASSERT_OK(real, RecordedBySensor(Unknown(), DancingTwin(9)));
   const SensorFitOptions options{.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}};
-  EXPECT_EQ(WriteSensorFile(FitSensor(*real, options), "v2"), WriteSensorFile(FitSensor(*real, options), "v2"));
+  EXPECT_EQ(WriteSensorFile(FitSensor(*real, options).sensor, "v2"),
+            WriteSensorFile(FitSensor(*real, options).sensor, "v2"));
 }
 
 TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
@@ -92,10 +95,22 @@ TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
   auto kneeless = MakeRealRecording(real->recording, real->twin);
   ASSERT_TRUE(kneeless);
   const SkeletonSensorOptions fitted =
-      FitSensor(*kneeless, {.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}});
+      FitSensor(*kneeless, {.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}}).sensor;
   EXPECT_EQ(fitted[JointGroup::kKnees].size, SensorV2()[JointGroup::kKnees].size);
   EXPECT_EQ(fitted.correlation[Index(BoneKind::kShank)], SensorV2().correlation[Index(BoneKind::kShank)]);
   EXPECT_NE(fitted[JointGroup::kTorso].size, SensorV2()[JointGroup::kTorso].size);
+}
+
+TEST(FitSensor, NamesTheSettingsThatItsLimitsHold) {
+  SkeletonSensorOptions wild = SensorV2();
+  wild[JointGroup::kHands].size = 0.9;  // the fit allows at most 0.5 m
+  ASSERT_OK(real, RecordedBySensor(wild, DancingTwin(9)));
+  const FittedSensor fitted = FitSensor(*real, {.start = SensorV2(), .worlds = 3, .steps = 4, .progress = {}});
+  EXPECT_THAT(fitted.at_bounds, testing::Contains("groups.hands.size_m 0.5"));
+  EXPECT_EQ(fitted.sensor[JointGroup::kHands].size, 0.5);
+  ASSERT_OK(usual, RecordedBySensor(Unknown(), DancingTwin(9)));
+  EXPECT_THAT(FitSensor(*usual, {.start = SensorV2(), .worlds = 3, .steps = 4, .progress = {}}).at_bounds,
+              testing::Not(testing::Contains(testing::HasSubstr("size_m"))));
 }
 
 TEST(Simulate, AtStrengthZeroSaysTheTwinItself) {
