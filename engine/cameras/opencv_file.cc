@@ -9,6 +9,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
+#include "engine/base/angles.h"
+
 namespace etude {
 namespace {
 
@@ -139,7 +141,13 @@ Result<glm::dmat3> RotationOf(std::span<const double> n, std::string_view what) 
   if (!std::ranges::all_of(n, [](double value) { return std::isfinite(value); })) {
     return Fail({}, "{} has a number that is not finite", what);
   }
-  if (n.size() == 3) return MatrixOfRodrigues({n[0], n[1], n[2]});
+  if (n.size() == 3) {
+    // Programs write angles up to half a turn. A solver's iterations may exceed that, but hardly a whole turn.
+    const glm::dvec3 vector(n[0], n[1], n[2]);
+    if (glm::length(vector) <= 2 * kPi) return MatrixOfRodrigues(vector);
+    return Fail({}, "{} is a turn by {:.4g}; allowed: at most a whole turn, 6.283, in radians", what,
+                glm::length(vector));
+  }
   if (n.size() != 9)
     return Fail({}, "{} has {} numbers; allowed: 3 (Rodrigues' vector) or 9 (a matrix)", what, n.size());
   return glm::transpose(glm::dmat3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]));

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/base/text.h"
+#include "engine/base/utf8.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/cameras/rig_pairs.h"
 #include "engine/document/fields.h"
@@ -295,7 +296,7 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
 
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
   if (text.size() > kMaxRigBytes) return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxRigBytes);
-  return Checked(Read(text, file), file);
+  return Checked(Read(WithoutByteOrderMark(text), file), file);
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/replaced.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -163,6 +164,8 @@ TEST(Pose2SimFile, RefusesWhatIsNotTomlOrNoCamera) {
         {"[a]\nfisheye = 'true'\n" + keys, ":2:11: camera a: 'fisheye' must be true or false"},
         {"[a]\n" + keys.substr(keys.find('\n') + 1) + "size = [640, '480']\n",
          ":6:8: camera a: 'size' must be a list of numbers"},
+        {testing::Replaced("[a]\n" + keys, "[0, 0, 0.5]", "[0, 0, 28.6]"),
+         ":5:12: camera a: rotation is a turn by 28.6; allowed: at most a whole turn, 6.283, in radians"},
         {"[metadata]\nerror = 1\n", "no camera"}}) {
     EXPECT_NE((":" + NamesIn(text)).find(said), std::string::npos) << NamesIn(text);
   }
