@@ -60,6 +60,14 @@ std::span<const KeypointLayout> KeypointLayouts() {
       {"mediapipe",
        Listed("Nose - LEye - - REye - LEar REar - - LShoulder RShoulder LElbow RElbow LWrist RWrist - - - - - - LHip "
               "RHip LKnee RKnee LAnkle RAnkle LHeel RHeel LBigToe RBigToe")},
+      {"h36m",
+       Listed("MidHip RHip RKnee RAnkle LHip LKnee LAnkle - Neck - Head LShoulder LElbow LWrist RShoulder RElbow "
+              "RWrist"),
+       0, true},
+      {"trt_pose",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Neck"),
+       0, true},
       // The following layouts have more points, of face and hands, which are ignored.
       {"coco_wholebody",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "

@@ -86,11 +86,13 @@ struct KeypointLayout {
   std::string name;
   std::vector<Landmark> landmarks;
   std::size_t more = 0;  ///< number of further points, of face and hands, that are ignored
+  bool is_rare = false;  ///< only chosen by its name, because a usual layout has as many points
 };
 
-/// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), "body_25" and "body_25b" (25 each, in different
-/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands". The last
-/// one is ours: halpe_26 with the finger tips. It contains every landmark, and `etude export` writes marks in it.
+/// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), the rare "h36m" (17 points; Human3.6M, MotionBERT)
+/// and "trt_pose" (18 points; NVIDIA), "body_25" and "body_25b" (25 each, in different orders; OpenPose), "halpe_26",
+/// "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands". The last one is ours: halpe_26 with the
+/// finger tips. It contains every landmark, and `etude export` writes marks in it.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
 /// Finds a layout by its name; returns null if there is none.

@@ -139,7 +139,7 @@ Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& nam
   std::vector<const KeypointLayout*> fitting;
   std::string counts;
   for (const KeypointLayout& layout : KeypointLayouts()) {
-    if (layout.landmarks.size() + layout.more == count && (named.empty() || named == layout.name))
+    if (layout.landmarks.size() + layout.more == count && (named.empty() ? !layout.is_rare : named == layout.name))
       fitting.push_back(&layout);
     counts += (counts.empty() ? "" : ", ") + fmt::format("{} ({})", layout.name, layout.landmarks.size() + layout.more);
   }

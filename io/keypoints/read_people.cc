@@ -17,6 +17,7 @@
 #include "io/keypoints/coco_file.h"
 #include "io/keypoints/frame_numbers.h"
 #include "io/keypoints/keypoint_lists.h"
+#include "io/keypoints/layout_doubts.h"
 #include "io/keypoints/people_json.h"
 
 namespace etude {
@@ -199,56 +200,18 @@ Result<PeopleOfFilm> ReadAs(const fs::path& path, const std::string& layout, con
   return fs::is_directory(path) ? ReadFolder(path, layout, of) : ReadFile(path, layout, of);
 }
 
-/// Counts the people who show three landmarks (`people`), and those whose middle landmark lies midway (`between`).
-struct Midway {
-  int between = 0, people = 0;
-  bool Are() const { return IsEnough() && between >= kMostly * people; }
-  bool AreNot() const { return IsEnough() && between <= (1 - kMostly) * people; }
-
- private:
-  static constexpr double kMostly = 0.9;
-  static constexpr int kMinPeople = 3;
-  bool IsEnough() const { return people >= kMinPeople; }
-};
-
-Midway CountMidway(const SeenPeople& frames, Landmark middle, Landmark a, Landmark b) {
-  constexpr double kMaxShare = 0.03;  // tolerance as a share of the person's height
-  Midway count;
-  for (const auto& frame : frames) {
-    for (const SeenPerson& person : frame) {
-      const double height = HeightPx(person);
-      const bool shows_all = std::min({person[middle].confidence, person[a].confidence, person[b].confidence}) > 0;
-      if (!shows_all || height <= 0) continue;
-      ++count.people;
-      const glm::dvec2 wanted = 0.5 * (person[a].pixel + person[b].pixel);
-      if (glm::distance(person[middle].pixel, wanted) <= kMaxShare * height) ++count.between;
-    }
+/// Returns the reason why the keypoints seem to be in another order than `layout`, and the layout that fits better, if
+/// there is one; "" if there is no such reason.
+std::string DoubtOf(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of,
+                    const SeenPeople& frames) {
+  std::string doubt = DoubtOf(layout, frames);
+  if (doubt.empty() || doubt.find("--layout") != std::string::npos) return doubt;
+  for (const KeypointLayout& other : KeypointLayouts()) {
+    if (other.name == layout) continue;
+    if (const auto read = ReadAs(path, other.name, of); read && FitsClearly(read->frames))
+      return doubt + "; try --layout " + other.name;
   }
-  return count;
-}
-
-Midway MidHipsOfBody25(const SeenPeople& frames) {
-  return CountMidway(frames, Landmark::kMidHip, Landmark::kLeftHip, Landmark::kRightHip);
-}
-
-/// Returns the reason why the people of this layout seem to have the other layout of 25 keypoints; "" if there is none.
-std::string DoubtOf(const std::string& layout, const SeenPeople& frames) {
-  if (layout == "body_25") {
-    const Midway hips = MidHipsOfBody25(frames);
-    if (!hips.AreNot()) return "";
-    return fmt::format(
-        "in the layout body_25, the mid-hip would be between the hips in only {} of {} people; try --layout body_25b",
-        hips.between, hips.people);
-  }
-  if (layout != "body_25b") return "";
-  // The mid-hip and the two hips of body_25 have the numbers 8, 9 and 12. In body_25b, these numbers stand for the
-  // right elbow, the left wrist and the right hip.
-  const Midway hips = CountMidway(frames, Landmark::kRightElbow, Landmark::kLeftWrist, Landmark::kRightHip);
-  if (!hips.Are()) return "";
-  return fmt::format(
-      "in the layout body_25b, the right elbow would be between the left wrist and the right hip in {} of {} people; "
-      "try --layout body_25",
-      hips.between, hips.people);
+  return doubt + "; allowed: a name for each keypoint in the file, or --layout";
 }
 
 }  // namespace
@@ -258,7 +221,7 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
   if (!film && layout.empty()) {
     // The number of keypoints may fit two layouts, which the mid-hip tells apart.
     auto other = ReadAs(path, "body_25", of);
-    if (other && MidHipsOfBody25(other->frames).Are()) {
+    if (other && HasMidHips(other->frames)) {
       other->Tell(
           "Etude uses the layout body_25, because there are 25 keypoints per person and one keypoint is between the "
           "hips");
@@ -266,7 +229,7 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     }
   }
   if (!film) return film;
-  film->doubt = DoubtOf(layout, film->frames);
+  film->doubt = DoubtOf(path, layout, of, film->frames);
   Denormalise(of, *film);
   return film;
 }

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/io/keypoints/keypoint_files.h"
 
 namespace etude {
@@ -125,10 +127,11 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
   const auto people = [](bool has_mid_hip) {
     std::string list;
     for (std::size_t i = 0; i < 25; ++i) {
+      const bool is_face = i == 0 || (has_mid_hip && i >= 15 && i <= 18);
       const double x = i == 9    ? 90
                        : i == 12 ? 110
                                  : 100,
-                   y = i == 0        ? 0
+                   y = is_face       ? (has_mid_hip ? 0 : 60)
                        : i == 24     ? 200
                        : has_mid_hip ? 100
                                      : 60 + 8 * i;
@@ -156,6 +159,63 @@ TEST_F(ReadPeople, KnowsTheOrderOfOpenPosesBody25ByItsMidHip) {
             "in the layout body_25, the mid-hip would be between the hips in only 0 of 4 people; try --layout "
             "body_25b");
   EXPECT_EQ(doubt("a", "body_25") + doubt("b", "body_25b") + doubt("a", ""), "");
+}
+
+/// Returns the landmarks of a person, 170 pixels tall, who stands or crouches, turned by quarters about the hips.
+std::map<Landmark, glm::dvec2> Stick(bool crouches, int quarters, bool from_behind) {
+  using enum Landmark;
+  std::map<Landmark, glm::dvec2> at = {
+      {kHead, {0, -85}},       {kNose, {1, -72}},          {kLeftEye, {4, -75}},
+      {kRightEye, {-3, -75}},  {kLeftEar, {8, -73}},       {kRightEar, {-7, -73}},
+      {kNeck, {0, -55}},       {kLeftShoulder, {18, -55}}, {kRightShoulder, {-18, -55}},
+      {kLeftElbow, {22, -25}}, {kRightElbow, {-24, -26}},  {kLeftWrist, {24, 0}},
+      {kRightWrist, {-20, 1}}, {kMidHip, {0, 0}},          {kLeftHip, {10, 0}},
+      {kRightHip, {-10, 0}},   {kLeftKnee, {11, 42}},      {kRightKnee, {-10, 41}},
+      {kLeftAnkle, {12, 85}},  {kRightAnkle, {-13, 84}}};
+  if (crouches) {
+    at[kLeftKnee] = {25, -20};
+    at[kRightKnee] = {-22, -18};
+    at[kLeftAnkle] = {14, 20};
+    at[kRightAnkle] = {-12, 21};
+  }
+  for (auto& [landmark, pixel] : at) {
+    if (from_behind) pixel.x = -pixel.x;
+    for (int i = 0; i < quarters; ++i) pixel = {-pixel.y, pixel.x};
+    pixel += glm::dvec2(300, 200);
+  }
+  return at;
+}
+
+TEST_F(ReadPeople, DoubtsKeypointsInAnotherOrderThanTheirNumberTells) {
+  const auto write = [&](const char* layout, const std::map<Landmark, glm::dvec2>& stick) {
+    std::string points;
+    for (const Landmark landmark : FindKeypointLayout(layout)->landmarks) {
+      const glm::dvec2 p = stick.at(landmark == Landmark::kNoLandmark ? Landmark::kMidHip : landmark);
+      points += fmt::format("{}{}, {}, 0.9", points.empty() ? "" : ", ", p.x, p.y);
+    }
+    const std::string frame = R"({"people": [{"keypoints": [)" + points + "]}]}";
+    return Write("list.json", fmt::format("[{0}, {0}, {0}, {0}]", frame));
+  };
+  for (const bool crouches : {false, true}) {
+    for (const int quarters : {0, 1, 2, 3}) {
+      for (const bool from_behind : {false, true}) {
+        const auto stick = Stick(crouches, quarters, from_behind);
+        for (const char* usual : {"coco", "coco_18"}) {
+          EXPECT_EQ(ReadKeypoints(write(usual, stick), "").value().doubt, "") << usual << crouches << quarters;
+        }
+        for (const char* rare : {"h36m", "trt_pose"}) {
+          const auto file = write(rare, stick);
+          const std::string doubt = ReadKeypoints(file, "").value().doubt;
+          EXPECT_THAT(doubt, HasSubstr("in 4 of 4 people")) << crouches << quarters;
+          EXPECT_THAT(doubt, HasSubstr(fmt::format("try --layout {}", rare)));
+          ASSERT_OK(told, ReadKeypoints(file, rare));
+          EXPECT_EQ(told->doubt, "");
+          EXPECT_EQ(told->frames[0][0][Landmark::kRightKnee].pixel, stick.at(Landmark::kRightKnee) + 0.5);
+        }
+        EXPECT_THAT(ReadKeypoints(write("coco", stick), "h36m").value().doubt, HasSubstr("try --layout coco"));
+      }
+    }
+  }
 }
 
 TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
