@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "engine/motion/motion_faults.h"
@@ -10,10 +11,34 @@
 #include "engine/retargeting/marker_sets.h"
 
 namespace etude {
+std::string DescribeFlatBody(std::span<const JointPositions> frames) {
+  constexpr double kFlat = 0.01, kMostly = 0.9;
+  std::array<std::size_t, 3> flat{};
+  std::size_t shown = 0;
+  for (const JointPositions& frame : frames) {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    const auto lacks = [&](Role role) { return !frame[Index(role)]; };
+    if (std::ranges::any_of(kNeededJoints, lacks)) continue;
+    for (const auto& joint : frame) {
+      if (!joint) continue;
+      low = glm::min(low, *joint);
+      high = glm::max(high, *joint);
+    }
+    const glm::dvec3 extent = high - low;
+    ++shown;
+    for (int axis = 0; axis < 3; ++axis)
+      flat[static_cast<std::size_t>(axis)] += extent[axis] < kFlat * glm::length(extent);
+  }
+  const auto most = static_cast<double>(*std::ranges::max_element(flat));
+  if (shown == 0 || most < kMostly * static_cast<double>(shown)) return "";
+  return "the body is flat, without depth: are the positions pixels of a picture? Etude reads such keypoints with "
+         "`etude capture --keypoints`";
+}
 
 std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz) {
   std::vector<std::string> doubts;
   if (auto said = DescribeExchangedJoints(frames, rate_hz); !said.empty()) doubts.push_back(std::move(said));
+  if (auto said = DescribeFlatBody(frames); !said.empty()) doubts.push_back(std::move(said));
   // Make a body. A joint that is not seen stays where it was, or is put midway between others.
   BodyMotion body{.rate_hz = rate_hz, .poses = {}};
   std::vector<JointSet> unseen;

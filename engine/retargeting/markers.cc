@@ -13,6 +13,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
+#include "engine/retargeting/body_doubts.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_people.h"
 #include "engine/retargeting/marker_repairs.h"
@@ -289,6 +290,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     body.Doubt("the feet point backwards: left and right are exchanged, or an axis is mirrored");
   }
   body.Doubt(crossing);
+  body.Doubt(DescribeFlatBody(frames));
   StandOnFloor(options.keep_floor, set.is_own, body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);

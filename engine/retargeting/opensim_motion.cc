@@ -263,6 +263,8 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
     column = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (column == names.size())
       return Fail(scanner.At(time), "the model needs the column {}, but the file does not have it", Quote(name));
+    if (std::ranges::count(names, name) > 1)
+      return Fail(scanner.At(time), "the column {} is in the file twice; allowed: once", Quote(name));
     return {};
   };
   for (ReadPart& part : table.parts) {

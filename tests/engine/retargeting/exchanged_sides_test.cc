@@ -132,6 +132,12 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
   std::vector<JointPositions> shifted = Dance("boxing");
   for (JointPositions& frame : shifted) std::ranges::rotate(frame, frame.begin() + 1);
   EXPECT_THAT(DoubtsOnBody(shifted, kRate_hz), Contains(HasSubstr("left_foot is torn off in all frames")));
+  // Pixels of a picture have no depth.
+  std::vector<JointPositions> flat = Dance("boxing");
+  for (std::size_t f = 0; f < flat.size(); ++f) {
+    for (MarkerPosition& place : flat[f]) place->z = 0.9 + 0.001 * static_cast<double>(f % 7);
+  }
+  EXPECT_THAT(DoubtsOnBody(flat, kRate_hz), Contains(HasSubstr("the body is flat, without depth")));
   // Frames without points give no message, nor does a recording without frames.
   EXPECT_THAT(DoubtsOnBody(std::vector<JointPositions>(20), kRate_hz), IsEmpty());
   EXPECT_THAT(DoubtsOnBody({}, kRate_hz), IsEmpty());

@@ -135,6 +135,10 @@ TEST(OpenSimMotion, ReadsRadiansAndClocksWithGaps) {
   };
   EXPECT_EQ(rate("inDegrees=yes", "inDegrees=no"), 25);
   EXPECT_EQ(rate("\n0.040000", "\n0.060000"), 50) << "two rows are missing";
+  // The heading names the knee twice.
+  EXPECT_THAT(testing::Refusal(ReadOpenSimMotion(
+                  testing::Replaced(good, "\tknee_angle_l\t", "\tknee_angle_l\tknee_angle_l\t"), "a.mot")),
+              HasSubstr("the column 'knee_angle_l' is in the file twice; allowed: once"));
 }
 
 TEST(OpenSimMotion, TheUnitOfAnglesIsReadOrSaid) {
