@@ -217,6 +217,7 @@ namespace {
 Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Held held) {
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
+    if (const std::string shard = ShardInWords(folder); !shard.empty()) return Fail({folder.string()}, "{}", shard);
     run.incomplete.push_back(
         fmt::format("the run was interrupted or is still running, because the file {} exists", kJournalFile));
     return run;

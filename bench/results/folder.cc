@@ -136,6 +136,21 @@ std::string SealText(const FilePath& folder) { return ReadWholeFile(folder / kSe
 
 }  // namespace
 
+std::string ShardInWords(const fs::path& folder) {
+  const FilePath journal = Inside(folder) / kJournalFile;
+  if (!Exists(journal)) return "";
+  // The first line of a journal names the shard; "1/1" is a run without shards.
+  auto lines = FileLines::Open(journal);
+  std::string head;
+  if (!lines || !lines->Next(head)) return "";
+  const auto json = ReadJson(head, journal.string());
+  if (!json || !json->is_object()) return "";
+  const auto shard = json->find("shard");
+  if (shard == json->end() || !shard->is_string() || *shard == "1/1") return "";
+  return fmt::format("is shard {} of a run; 'etude merge DIR… -o DIR' makes one run of all its shards",
+                     shard->get<std::string>());
+}
+
 FilePath RecordingFile(const fs::path& folder, const std::string& cell) {
   return Inside(folder) / "recordings" / FileNameOf(cell);
 }
@@ -222,9 +237,10 @@ Result<RunData> ReadOutline(const fs::path& path, Sealing sealing) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return Fail(place, "no such folder; 'etude run' writes the folder of a run");
   if (Exists(folder / kJournalFile)) {
+    if (const std::string shard = ShardInWords(path); !shard.empty()) return Fail(place, "{}", shard);
     return Fail(place,
-                "this run was interrupted, is still running, or is a shard, because the file {} exists; 'etude run "
-                "--resume' continues a run, and 'etude merge' makes one run of shards",
+                "this run was interrupted or is still running, because the file {} exists; 'etude run --resume' "
+                "continues a run",
                 kJournalFile);
   }
   if (!Exists(folder / "manifest.json")) {

@@ -82,6 +82,9 @@ Result<RunData> LoadRunRowByRow(const std::filesystem::path& folder, Sealing sea
 /// reads them.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
+/// Returns "is shard 1/2 of a run; …" if the folder holds an unmerged shard of a run, and "" if not.
+std::string ShardInWords(const std::filesystem::path& folder);
+
 /// Fails if another run has replaced the folder since `run` was loaded.
 Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData& run);
 
