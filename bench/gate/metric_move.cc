@@ -169,8 +169,8 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
   move.worlds = static_cast<int>(presence.size());
   move.before = AggregateOfPresent(columns.before, columns.weights_before, columns.compared, metric.aggregate);
   move.after = AggregateOfPresent(columns.after, columns.weights_after, columns.compared, metric.aggregate);
-  const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
-                                          move.identity.metric, move.identity.method);
+  const std::string purpose =  // without the method's name: equal values get equal verdicts
+      fmt::format("gate/{}/{}/{}", move.identity.scenario, move.identity.condition, move.identity.metric);
   if (move.differing == 0) return move;  // usually, all values are equal, and no test is needed
   if (columns.weights_before != nullptr) Weigh(values, weights);
   move.comparison = ComparePaired(values, metric, seed, purpose);

@@ -36,13 +36,13 @@ std::vector<SeriesGroup> GroupSeries(const RunData& run, const std::string& axis
   std::map<std::string_view, const std::vector<Series>*> held;  // the series of each cell, by the cell's name
   for (const CellSeries& cell : run.series) held.emplace(cell.cell, &cell.series);
   std::vector<SeriesGroup> groups;
-  std::map<std::string, std::size_t> places;  // index in `groups`, by SeriesGroup::id
+  std::map<std::pair<std::string, std::string>, std::size_t> places;  // index in `groups`, by place and method
   const auto add = [&](const Row& row, const std::vector<Series>& series) {
     for (const Series& one : series) {
       if (one.axis != axis) continue;
-      std::string id = row.scenario + '/' + CompactLabel(row.condition) + '/' + row.method + '/' + one.name;
-      const auto [place, is_new] = places.emplace(std::move(id), groups.size());
-      if (is_new) groups.push_back({place->first, row.condition, row.method, one.name, {}, {}});
+      std::string at = row.scenario + '/' + CompactLabel(row.condition) + '/' + one.name;
+      const auto [place, is_new] = places.emplace(std::pair(at, row.method), groups.size());
+      if (is_new) groups.push_back({std::move(at), row.condition, row.method, one.name, {}, {}});
       groups[place->second].values.push_back(one.values);
       groups[place->second].units.push_back(row.units.empty() ? row.clip : row.units.front());
     }

@@ -87,7 +87,7 @@ std::size_t CountRows(const RunData& run);
 void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
 /// The series with one name that the cells of one method under one condition of a scenario contain.
 struct SeriesGroup {
-  std::string id;  ///< "scenario/condition/method/name"
+  std::string place;  ///< "scenario/condition/name"; keys random streams, so it names no method
   std::vector<SweptValue> condition;
   std::string method, name;
   std::vector<std::vector<double>> values;  ///< one list for each cell

@@ -60,6 +60,11 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   ASSIGN_OR_RETURN(const auto again, ReadJson(text, "the summary computed again"));
   const auto differences = CompareManifests(then, again);
   verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
+  if (!differences.empty()) {
+    verified.differences[0] +=
+        "; the summary differs, or another version of Etude made it: other versions draw other random numbers for "
+        "intervals and p-values (repeat the run to compare)";
+  }
   return verified;
 }
 

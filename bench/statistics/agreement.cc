@@ -83,8 +83,8 @@ std::vector<AngleAgreement> AgreementByAngle(const RunData& run) {
     }
     if (pairs.empty()) continue;
     // Each angle has a random stream of its own.
-    found.push_back(
-        {group.condition, group.method, group.name, MeasureAgreement(pairs, units, run.seed, "agreement/" + group.id)});
+    found.push_back({group.condition, group.method, group.name,
+                     MeasureAgreement(pairs, units, run.seed, "agreement/" + group.place)});
   }
   return found;
 }

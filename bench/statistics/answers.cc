@@ -88,10 +88,9 @@ class Measurer {
   Measurer(const Study& study, const ConditionTable& table, std::uint64_t seed)
       : study_(study), table_(table), seed_(seed) {}
 
-  /// `other` is the name of the other method; `key` keys the random streams.
-  Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other,
-                 const std::string& key) const {
-    Answer answer = MeasureSteps(pairing, values, key);
+  /// `other` is the name of the other method.
+  Answer Measure(const Pairing& pairing, const PairedWorlds& values, const std::string& other) const {
+    Answer answer = MeasureSteps(pairing, values);
     answer.baseline = other;
     for (std::optional<Comparison>* step : {&answer.success, &answer.both_succeed, &answer.tail}) {
       if (!*step) continue;
@@ -117,11 +116,9 @@ class Measurer {
     return found;
   }
 
-  Answer MeasureSteps(const Pairing& pairing, const PairedWorlds& values, const std::string& key) const {
+  Answer MeasureSteps(const Pairing& pairing, const PairedWorlds& values) const {
     const std::string method = pairing.method->name(), value = ValueMetricOf(study_);
-    const auto purpose = [&](const std::string& step) {
-      return PurposeOf(study_.scenario, table_.condition, step, key, method);
-    };
+    const auto purpose = [&](const std::string& step) { return PurposeOf(study_.scenario, table_.condition, step); };
     Answer answer{.method = method, .value_metric = value};
     // Compare success; a failed cell counts 0.
     const PairedWorlds successes = study_.success.empty() ? PairedWorlds() : SuccessesOf(pairing, study_.success);
@@ -265,8 +262,7 @@ std::optional<Comparison> CompareSuccess(const Study& study, const ConditionTabl
   const std::vector<const MethodColumns*> others(static_cast<std::size_t>(table.trials()), &table.Of(other));
   const PairedWorlds worlds = SuccessesOf({&table.Of(method), others}, study.success);
   if (worlds.pairs.empty()) return std::nullopt;
-  return ComparePaired(worlds.pairs, SuccessMetric(study), seed,
-                       PurposeOf(study.scenario, table.condition, "success", other, method));
+  return ComparePaired(worlds.pairs, SuccessMetric(study), seed, PurposeOf(study.scenario, table.condition, "success"));
 }
 
 int WorldsNeeded(const Study& study) {
@@ -297,7 +293,7 @@ std::optional<Answer> MeasureAnswerAgainstBaseline(const Study& study, const Con
   const std::string value = ValueMetricOf(study);
   const std::vector<const MethodColumns*> other(static_cast<std::size_t>(table.trials()), &table.Of(method.against));
   const PairedWorlds values = value.empty() ? PairedWorlds() : PairsOf(table, method.against, method.name, value);
-  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, method.against, method.against);
+  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, method.against);
 }
 
 std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const ConditionTable& table,
@@ -310,7 +306,7 @@ std::optional<Answer> MeasureAnswerAgainstRival(const Study& study, const Condit
     other.push_back(&table.Of(rival->of_half[static_cast<std::size_t>(HalfOf(table, trial))]));
   }
   const PairedWorlds values = value.empty() ? PairedWorlds() : WorldsAgainst(*rival, table, method.name, value);
-  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, rival->Name(), "rival");
+  return Measurer(study, table, seed).Measure({&table.Of(method.name), other}, values, rival->Name());
 }
 
 void JudgeAnswers(const Study& study, std::vector<ConditionSummary>& conditions) {

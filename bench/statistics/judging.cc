@@ -383,8 +383,7 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& 
   const std::string& other = wants_lower ? expectation.below : expectation.above;
   for (const ConditionTable& condition : table.conditions()) {
     if (!Matches(condition.condition, expectation.where)) continue;
-    const std::string purpose =
-        PurposeOf(study.scenario, condition.condition, expectation.metric, other, expectation.of);
+    const std::string purpose = PurposeOf(study.scenario, condition.condition, expectation.metric);
     Finding finding = other.empty() ? JudgeBound(expectation, condition)
                                     : JudgeComparison(expectation, condition, other, wants_lower, seed, purpose);
     if (!other.empty()) AskSuccessFirst(expectation, study, condition, other, wants_lower, seed, finding);

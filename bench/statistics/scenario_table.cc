@@ -274,9 +274,9 @@ std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const Metri
   return all;
 }
 
-std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
-                      const std::string& baseline, const std::string& method) {
-  return fmt::format("{}/{}/{}/{}/{}", scenario, ConditionLabel(condition), metric, baseline, method);
+std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition,
+                      const std::string& metric) {
+  return fmt::format("{}/{}/{}", scenario, ConditionLabel(condition), metric);
 }
 
 std::string Rival::Name() const { return of_half[0] == of_half[1] ? of_half[0] : of_half[0] + " or " + of_half[1]; }

@@ -106,10 +106,10 @@ PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, c
 /// Returns nothing if there is no such world, if there is no pair, or if the metric has no direction.
 std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
 
-/// Returns the text that keys the random streams of a comparison. It does not change if methods, metrics or conditions
-/// are added.
-std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
-                      const std::string& baseline, const std::string& method);
+/// Returns the text that keys the random streams of the intervals and tests of a metric in a condition. It contains no
+/// name of a method, so equal values have equal intervals and p-values, whatever their methods are called. It does not
+/// change if methods, metrics or conditions are added.
+std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric);
 
 /// The strongest rival of a method.
 struct Rival {

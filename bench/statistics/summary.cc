@@ -84,7 +84,7 @@ MethodSummary SummariseMethod(const MethodColumns& method, const ConditionTable&
     summary.ok_high = interval.high;
   }
   for (const MetricInfo* metric : metrics) {
-    const std::string purpose = PurposeOf(study.scenario, table.condition, metric->id, "", method.name());
+    const std::string purpose = PurposeOf(study.scenario, table.condition, metric->id);
     summary.metrics.push_back(SummariseMetric(*metric, method, seed, purpose));
   }
   return summary;
@@ -131,7 +131,7 @@ void AskAgainstBaseline(const Study& study, const ConditionTable& condition, con
   if (entry.name == entry.against) return;
   const Family family{study, seed, CountComparisons(study)};
   for (const std::string& id : study.metrics) {
-    const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
+    const std::string purpose = PurposeOf(study.scenario, condition.condition, id);
     const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
     questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
     questions.back().comparison.baseline = entry.against;
@@ -148,7 +148,7 @@ void AskAgainstRival(const Study& study, const ConditionTable& condition, const 
       std::ranges::count_if(study.methods, [&](const ComparedMethod& method) { return HasRival(study, method); });
   const Family family{study, seed, SizeOf(study, static_cast<int>(asking))};
   for (const std::string& id : study.metrics) {
-    const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
+    const std::string purpose = PurposeOf(study.scenario, condition.condition, id);
     const PairedWorlds worlds = WorldsAgainst(*rival, condition, entry.name, id);
     questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
     Comparison& comparison = questions.back().comparison;
@@ -403,7 +403,7 @@ std::vector<ErrorBudget> ComputeErrorBudgets(const Study& study, const Condition
                                              std::uint64_t seed) {
   std::vector<ErrorBudget> budgets;
   for (const std::vector<Member>& family : FamiliesOf(study)) {
-    std::string purpose = "budget/" + study.scenario + "/" + metric + "/" + family.front().method;
+    std::string purpose = "budget/" + study.scenario + "/" + metric;
     for (const SweptValue& swept : table.condition) purpose += "/" + swept.key + "=" + swept.value;
     if (auto budget = BudgetMaker(family, table, metric, seed, std::move(purpose)).Make()) {
       budgets.push_back(std::move(*budget));

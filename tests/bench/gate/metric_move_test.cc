@@ -164,5 +164,18 @@ TEST(GateOfThirtyWorlds, FollowsTheKeysOfItsScenario) {
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {times: 601}}\n")), GateVerdict::kPassed);
 }
 
+TEST(MeasureMove, IsTheSameForAMethodOfAnotherName) {
+  std::vector<std::optional<double>> after;
+  for (int i = 0; i < 40; ++i) after.emplace_back(10 + 0.01 * ((i * i * 7) % 31) - 0.12);
+  const auto measure = [&](const std::string& method) {
+    return MeasureMove({"s", "", method, "position_error_cm"}, Columns(after), 1).comparison;
+  };
+  const Comparison a = measure("a"), b = measure("another-name");
+  ASSERT_EQ(a.sign_flip.how, "9,999 draws") << "the test must draw random numbers";
+  EXPECT_EQ(a.sign_flip.p, b.sign_flip.p);
+  EXPECT_EQ(a.ci_low, b.ci_low);
+  EXPECT_EQ(a.ci_high, b.ci_high);
+}
+
 }  // namespace
 }  // namespace etude

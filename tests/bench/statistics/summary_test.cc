@@ -271,5 +271,45 @@ TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).outcome, ClaimOutcome::kUndecided);
 }
 
+TEST(SummaryOfNames, RenamedMethodsKeepEveryIntervalAndP) {
+  constexpr const char* kPair = R"(
+scenario: s
+question: which?
+task: ik
+trials: 30
+methods: [{name: NAME}, {name: other}]
+metrics: [position_error_cm]
+expect: [{metric: position_error_cm, of: other, below: NAME}]
+)";
+  // Returns the summary of the same values under another name of the first method.
+  const auto summarise = [&](const std::string& name) {
+    std::string yaml = kPair;
+    for (std::size_t at; (at = yaml.find("NAME")) != std::string::npos;) yaml.replace(at, 4, name);
+    const Study study = StudyOf(ParseOne(yaml));
+    std::vector<Row> rows;
+    for (int trial = 0; trial < 30; ++trial) {
+      for (const std::string& method : {name, std::string("other")}) {
+        Row row{"s", "ik", study.conditions.front(), trial, "", {}, method, {}};
+        row.result.status = Status::kOk;
+        const double spread = 0.1 * ((trial * trial * 7) % 31);
+        row.result.Measure("position_error_cm", method == "other" ? 5 + 0.03 * ((trial * 11) % 29) : 5 + spread);
+        rows.push_back(std::move(row));
+      }
+    }
+    ScenarioTable table = Tabulate(study, rows);
+    return Summarise(study, table, 1);
+  };
+  const ScenarioSummary a = summarise("a"), b = summarise("another-name");
+  const MetricSummary &of_a = a.conditions[0].methods[0].metrics[0], &of_b = b.conditions[0].methods[0].metrics[0];
+  ASSERT_TRUE(of_a.ci_low && of_a.ci_high);
+  EXPECT_EQ(of_a.ci_low, of_b.ci_low);
+  EXPECT_EQ(of_a.ci_high, of_b.ci_high);
+  const Comparison &x = a.conditions[0].comparisons[0], &y = b.conditions[0].comparisons[0];
+  ASSERT_EQ(x.sign_flip.how, "9,999 draws") << "the test must draw random numbers";
+  EXPECT_EQ(x.sign_flip.p, y.sign_flip.p);
+  EXPECT_EQ(x.ci_low, y.ci_low);
+  EXPECT_EQ(x.ci_high, y.ci_high);
+}
+
 }  // namespace
 }  // namespace etude
