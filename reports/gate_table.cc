@@ -132,11 +132,11 @@ std::string RatioDetail(const RatioResult& ratio) {
   if (!ratio.median) return "no world has times of both methods";
   const std::string median = "median " + FormatNumber(*ratio.median);
   const std::string worlds = Plural(ratio.pairs, "world");
-  if (!ratio.ci_low) return fmt::format("{} over {}, which are too few for an interval", median, worlds);
   const std::string short_time =
       ratio.too_short_s ? fmt::format("; too short to judge: a method takes {} ms per world, the rule needs {} ms",
                                       FormatNumber(*ratio.too_short_s * 1000), kMinJudgedSeconds * 1000)
                         : "";
+  if (!ratio.ci_low) return fmt::format("{} over {}, which are too few for an interval{}", median, worlds, short_time);
   return fmt::format("{} (95 % interval {}) over {}{}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds,
                      short_time);
 }

@@ -42,17 +42,16 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
   result.pairs = static_cast<int>(ratios.size());
   if (ratios.empty()) return result;
   result.median = Quantile(ratios, 0.5);
-  const auto interval = BootstrapInterval(ratios, Aggregate::kMedian, scenario.seed,
-                                          fmt::format("time/{}/{}/{}", result.scenario, rule.of, rule.over));
-  if (!interval) return result;
-  result.ci_low = interval->low;
-  result.ci_high = interval->high;
   // Cold caches lengthen a short time: that of `of` raises the ratio, that of `over` lowers it.
   const bool is_met = *result.median <= rule.at_most;
   const double decisive = MedianOf(is_met ? over : of);
-  if (decisive < kMinJudgedSeconds) {
-    result.too_short_s = decisive;
-  } else if (is_met) {
+  if (decisive < kMinJudgedSeconds) result.too_short_s = decisive;
+  const auto interval = BootstrapInterval(ratios, Aggregate::kMedian, scenario.seed, "time/" + result.scenario);
+  if (!interval) return result;
+  result.ci_low = interval->low;
+  result.ci_high = interval->high;
+  if (result.too_short_s) return result;
+  if (is_met) {
     result.outcome = ClaimOutcome::kMet;
   } else if (interval->low > rule.at_most) {
     result.outcome = ClaimOutcome::kUnmet;

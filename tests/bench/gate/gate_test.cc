@@ -202,6 +202,9 @@ TEST(TimeRatios, AreUndecidedIfAMethodIsTooShortToTime) {
   const RatioResult brief = judged(0.0001 / 12.5), long_enough = judged(0.0004 / 12.5);
   EXPECT_EQ(brief.outcome, ClaimOutcome::kUndecided);
   EXPECT_NEAR(brief.too_short_s.value_or(0), 0.0003, 1e-5) << "three times the time of a";
+  FinishedRun few = Timed(3, 1);
+  for (auto& [id, seconds] : few.data.cpu_seconds) seconds *= 1e-5;
+  EXPECT_TRUE(JudgeTimeRatios(few)[0].too_short_s) << "also without an interval";
   EXPECT_EQ(long_enough.outcome, ClaimOutcome::kUnmet);
   EXPECT_EQ(long_enough.too_short_s, std::nullopt);
 }
