@@ -138,11 +138,37 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
   return verified;
 }
 
+namespace {
+
+/// Adds a difference if host.json, or its part `path` about one shard, states another environment than the manifest.
+void CompareEnvironment(const Json& manifest, const Json& host, const std::string& path,
+                        std::vector<std::string>& differences) {
+  const auto digest = manifest.find("environment"), pinned = host.find("pinned_environment");
+  if (digest == manifest.end() || pinned == host.end() || !pinned->is_array()) return;
+  if (!std::ranges::all_of(*pinned, [](const Json& one) { return one.is_string(); })) return;
+  const std::string told = DigestOfEnvironment(pinned->get<std::vector<std::string>>());
+  if (*digest == told) return;
+  differences.push_back(
+      fmt::format("{}: 'pinned_environment' has the digest {}, but 'environment' in manifest.json is {}", path, told,
+                  ShowJson(*digest)));
+}
+
+}  // namespace
+
 Result<Verified> VerifyHost(const FilePath& folder) {
   const FilePath path = folder / "host.json";
-  Verified verified{"host.json: only keys that a run writes", {}};
+  Verified verified{"host.json: only keys that a run writes, and the environment of the manifest", {}};
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(path));
+  ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(folder / "manifest.json"));
   CheckHost(host, path.string(), verified.differences);
+  // A merged run was made by its shards, and the machine that merged them may be another one.
+  Json shards = host.is_object() ? host.value("shards", Json::array()) : Json::array();
+  if (!shards.is_array()) shards = Json::array();
+  if (shards.empty() && host.is_object()) CompareEnvironment(manifest, host, path.string(), verified.differences);
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    if (!shards[i].is_object()) continue;
+    CompareEnvironment(manifest, shards[i], fmt::format("{}: shards[{}]", path.string(), i), verified.differences);
+  }
   ASSIGN_OR_RETURN(const auto text, WriteJson(host));
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found != text + "\n") verified.differences.push_back(path.string() + " differs from the text that a run writes");

@@ -94,12 +94,6 @@ Json DescribeMotions(const PreparedScenario& scenario) {
   return motions;
 }
 
-std::string DigestOf(const std::vector<std::string>& texts) {
-  Digest digest;
-  for (const std::string& text : texts) digest.Add(text + "\n");
-  return digest.Hex();
-}
-
 /// The libraries that affect results, given by the beginnings of their file names: C and C++, Ceres with its linear
 /// algebra and orderings, image codecs. Eigen, GLM, Random123 and, on Debian 12, Ceres are compiled into the program,
 /// whose build is stated in the head of a journal. Libraries that only draw pages, read fonts or learn weights are not
@@ -213,7 +207,7 @@ Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScena
             {"packages", ETUDE_PACKAGES},
             {"glibc", gnu_get_libc_version()},
             {"libraries", libraries},
-            {"environment", DigestOf(PinnedEnvironment())}};
+            {"environment", DigestOfEnvironment(PinnedEnvironment())}};
   json.update(EncodeSetup(WithCanonicalNames(suite)));
   for (const TaskKind& kind : AllTaskKinds()) {
     for (const std::string& id : kind.metrics) json["metrics"][id] = FindMetric(id)->version;
@@ -327,6 +321,12 @@ Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span
 Result<std::string> BuildDigest() {
   Digest digest;
   RETURN_IF_ERROR(ReadInChunks("/proc/self/exe", [&](std::string_view bytes) { digest.Add(bytes); }));
+  return digest.Hex();
+}
+
+std::string DigestOfEnvironment(const std::vector<std::string>& pinned) {
+  Digest digest;
+  for (const std::string& text : pinned) digest.Add(text + "\n");
   return digest.Hex();
 }
 

@@ -59,6 +59,10 @@ Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path
 /// once.
 Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
 
+/// Returns the digest that a manifest states as `environment`, of the variables that host.json lists
+/// (PinnedEnvironment).
+std::string DigestOfEnvironment(const std::vector<std::string>& pinned);
+
 /// Makes host.json, which describes the machine, the command line and the duration of the run.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
 

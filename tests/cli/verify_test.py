@@ -57,6 +57,15 @@ class Verify(EtudeCase):
         text = self.verify(*arguments, expect=1)
         return re.findall(r"^differs +([\w.]+)", text, re.M), text
 
+    def test_one_shard_is_no_run_for_any_command_that_judges(self):
+        shard = self.folder / "shard"
+        self.ends(0, "run", self.scenario, "--shard", "1/2", "-o", shard)
+        for command in (["verify", shard], ["verify", shard, "--sample", 0], ["gate", shard], ["compare", self.out, shard],
+                        ["compare", shard, self.out], ["report", shard], ["cite", shard], ["rows", shard]):
+            with self.subTest(command):
+                said = self.ends(2, *command).stderr
+                self.assertIn("is shard 1/2 of a run; 'etude merge DIR… -o DIR' makes one run of all its shards", said)
+
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
         for said in ("seal.json", "rows: exactly the rows", "files: only files that", "texts: only lines and keys", "host.json: only keys",
@@ -127,11 +136,18 @@ class Verify(EtudeCase):
             ("a key of the machine", lambda: forge(host, '"jobs":', '"is_fast":true,"jobs":'), "host.json", "no run writes 'is_fast'"),
             ("a figure of the machine", lambda: forge(host, '"jobs":', '"jobs":"no","shards":[{}],"wall_seconds":'), "host.json",
              r"'jobs' is .*shards\[0\]: 'host' is missing.*differs from the text that a run writes"),
+            ("the environment of the machine", lambda: forge(host, "LC_ALL=C.UTF-8", "LC_ALL=C"), "host.json",
+             "'pinned_environment' has the digest [0-9a-f]{16}, but 'environment' in manifest.json is"),
+            ("the environment of the manifest", lambda: self.forge_environment(manifest), "host.json",
+             "'pinned_environment' has the digest [0-9a-f]{16}, but 'environment' in manifest.json is .*0123456789abcdef"),
             ("the seed", lambda: forge(manifest, '"suite":"ik","seed":1', '"suite":"ik","seed":777'), "manifest.json", "seed: it differs from the seeds of the scenarios"),
             ("a platform", lambda: forge(manifest, '"trials":', '"platform":"ours","trials":'), "manifest.json", "platform was"),
             ("a source", lambda: forge(manifest, '"sources":{', '"sources":{"ours":"best",'), "manifest.json", "'ours' is used by no scenario and by no other source"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
         ]
+
+    def forge_environment(self, manifest):
+        forge(manifest, json.loads(manifest.read_text())["environment"], "0123456789abcdef")
 
     def test_what_was_forged_and_sealed_anew_is_found(self):
         for i in range(len(self.forgeries())):
