@@ -13,7 +13,9 @@
 #include "bench/scenario/methods.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
+#include "engine/base/text.h"
 #include "io/clips/open_clip.h"
+#include "io/clips/raw_motions.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"
 #include "io/streams/load.h"
@@ -119,13 +121,47 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
   return understood;
 }
 
-Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
-  OpenOptions how;
-  how.recorded = &MotionsOfRuns();
-  if (!setup.joint_map.empty()) {
-    ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(texts.at(setup.joint_map), setup.joint_map));
-    how.roles = std::move(roles);
+/// Leaves out the clips of files that are byte copies of earlier files, and adds them to `refused`. Otherwise one
+/// motion would count as two independent clips. Files whose motion also depends on other files are kept.
+Result<void> LeaveOutCopies(std::vector<std::string>& references, const OpenOptions& how, const Place& place,
+                            std::vector<RefusedClip>& refused) {
+  std::map<std::pair<std::string, std::optional<std::string>>, std::string> known;
+  std::vector<std::string> kept;
+  bool has_copy = false;
+  for (const std::string& reference : references) {
+    const auto expanded = ExpandReference(reference, place);
+    if (!expanded) return {};  // reading the clips reports it
+    for (const std::string& one : *expanded) {
+      const SplitReference split = Split(one);
+      const std::string ending = InLowerCase(std::filesystem::path(FileOf(split.path)).extension().string());
+      const auto digest = ending == ".amc" || ending == ".gltf" ? Result<std::string>(one) : DigestOfFile(one, how);
+      if (!digest) return {};
+      const auto [first, is_new] = known.emplace(std::pair(*digest, split.animation), one);
+      if (is_new) {
+        kept.push_back(one);
+      } else {
+        has_copy = true;
+        refused.push_back(
+            {one, fmt::format("is a byte copy of '{}', and one motion must not count twice", first->second)});
+      }
+    }
   }
+  if (has_copy) references = std::move(kept);
+  return {};
+}
+
+/// Applies LeaveOutCopies to the clips of a scenario, and to those of each library.
+Result<void> LeaveOutCopies(ScenarioSetup& setup, const SourceTexts& texts) {
+  ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
+  RETURN_IF_ERROR(LeaveOutCopies(setup.clips, how, {setup.file, 0, 0}, setup.refused));
+  for (NamedClips& library : setup.libraries) {
+    RETURN_IF_ERROR(LeaveOutCopies(library.clips, how, {setup.file, 0, 0}, setup.refused));
+  }
+  return {};
+}
+
+Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
+  ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
   const Place place{setup.file, 0, 0};
   ASSIGN_OR_RETURN(setup.clips, OnlyUnderstood(setup.clips, how, place, setup.refused));
   for (NamedClips& library : setup.libraries) {
@@ -223,6 +259,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
                       trials, std::move(clips),   joint_map,
                       digest, scenario.libraries, scenario.streams.files};
   setup.keeps_motions = options.keeps_motions;
+  RETURN_IF_ERROR(LeaveOutCopies(setup, sources));
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   RETURN_IF_ERROR(FindFiles(scenario, sources, setup));

@@ -1,4 +1,5 @@
 """Tests runs as users start them: every cell has its row, and the number of workers changes only the time."""
+import json
 import os
 import signal
 import subprocess
@@ -95,7 +96,28 @@ methods: [{name: hue}]
         self.assertEqual(first.wait(timeout=600), 130)
         self.assertEqual(second.returncode, 2)
         self.assertIn("another run is writing into this folder", second.stderr)
-        self.assertIn("this run was interrupted, is still running, or is a shard", self.ends(2, "report", self.out).stderr)
+        self.assertIn("this run was interrupted or is still running", self.ends(2, "report", self.out).stderr)
+
+    def test_a_byte_copy_of_a_clip_is_left_out_and_told(self):
+        clips = self.folder / "clips"
+        clips.mkdir()
+        for name, move in ("a", "clap"), ("c", "boxing"):
+            self.ends(0, "clip", "convert", f"builtin:{move}", clips / f"{name}.bvh")
+        (clips / "b.bvh").write_bytes((clips / "a.bvh").read_bytes())
+        scenario = self.write("t.yaml", f"scenario: t\nquestion: q?\ntask: tracking\nclips: ['{clips}/*.bvh']\ntrials: 4\n"
+                                        "methods: [{name: a, solver: ccd, weights: fixed}]\n")
+        told = self.ends(0, "run", scenario, "-o", self.out)
+        self.assertIn(f"b.bvh: was left out: is a byte copy of '{clips}/a.bvh'", told.stderr)
+        setup, = json.loads((self.out / "manifest.json").read_text())["scenarios"]
+        self.assertEqual([one["clip"] for one in setup["refused"]], [f"{clips}/b.bvh"])
+        self.assertEqual(len(setup["loaded_clips"]), 2)
+        self.ends(0, "verify", self.out)
+        # Without a copy, the manifest keeps the pattern.
+        (clips / "b.bvh").unlink()
+        self.ends(0, "run", scenario, "-o", self.folder / "whole")
+        setup, = json.loads((self.folder / "whole" / "manifest.json").read_text())["scenarios"]
+        self.assertNotIn("refused", setup)
+        self.assertEqual(len(setup["loaded_clips"]), 2)
 
     def test_nobody_listening_does_not_end_a_run(self):
         path = self.write("ik.yaml", IK)
