@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "engine/base/directions.h"
@@ -73,7 +74,8 @@ glm::dvec3 Chord(const glm::dvec3& other_end, const glm::dvec3& marker, const gl
 /// Returns the direction from a marker on the skin to the joint inside the limb. Blends `rough`, which is always known,
 /// with the normal of the bend plane, which gets more weight as the limb bends more. A marker that is `depth` beside a
 /// straight limb makes the limb seem bent; this apparent bend is subtracted.
-glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign, double depth) {
+glm::dvec3 Inward(const glm::dvec3& rough, const glm::dvec3& upper, const glm::dvec3& lower, double sign,
+                  double depth) {
   // kCertain: factor on the apparent bend; kRange: increase of the bend's sine over which the weight rises from 0 to 1.
   constexpr double kCertain = 1.2, kRange = 0.25;
   const double a = std::max(glm::length(upper), 1e-9), b = std::max(glm::length(lower), 1e-9);
@@ -180,8 +182,12 @@ UsedWands FindUsedWands(const std::vector<Wands>& wands, const SkinDepths& depth
   return used;
 }
 
+/// The joints from which a knee and an ankle, or an elbow, are moved to their centres.
+constexpr std::initializer_list<Role> kNeededForLeg = {kLeftHip, kLeftKnee, kLeftAnkle, kRightHip};
+constexpr std::initializer_list<Role> kNeededForElbow = {kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist};
+
 void MoveLeg(const SideOf& side, const Wands& wands, const UsedWands& used, const SkinDepths& depths) {
-  if (!side.Has({kLeftHip, kLeftKnee, kLeftAnkle, kRightHip})) return;
+  if (!side.Has(kNeededForLeg)) return;
   const std::size_t index = side.is_left() ? 0 : 1;
   const glm::dvec3 hip = *side[kLeftHip], skin = *side[kLeftKnee], ankle = *side[kLeftAnkle];
   const auto &thigh = wands.thigh[index], &shank = wands.shank[index];
@@ -240,6 +246,21 @@ bool AreOnElbowPoints(std::vector<JointPositions>& frames, const SkinDepths& dep
   return deviations[1] < kBetter * deviations[0] && deviations[0] - deviations[1] > kVisible;
 }
 
+/// Removes the joints `moved` from the frames that do not show all of `needed`, if other frames do: there, the joints
+/// would stay on the skin, and so jump by their depth. Keeps joints that lie on no skin.
+void RemoveUnmoved(std::vector<JointPositions>& frames, bool is_left, std::initializer_list<Role> needed,
+                   std::initializer_list<Role> moved, const SkinDepths& depths) {
+  const auto has_all = [&](JointPositions& places) { return SideOf(places, is_left).Has(needed); };
+  if (std::ranges::none_of(frames, has_all)) return;
+  for (JointPositions& places : frames) {
+    if (has_all(places)) continue;
+    const SideOf side(places, is_left);
+    for (const Role role : moved) {
+      if (depths.metres[Index(side.On(role))] > 0) places[Index(side.On(role))].reset();
+    }
+  }
+}
+
 }  // namespace
 
 std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
@@ -252,11 +273,16 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
   }
   const UsedWands used = set.has_skin_limbs ? FindUsedWands(wands, depths, frames) : UsedWands{};
   const bool is_on_point = set.has_skin_limbs && AreOnElbowPoints(frames, depths);
+  for (const bool is_left : {true, false}) {
+    if (!set.has_skin_limbs) break;
+    RemoveUnmoved(frames, is_left, kNeededForLeg, {kLeftKnee, kLeftAnkle}, depths);
+    RemoveUnmoved(frames, is_left, kNeededForElbow, {kLeftElbow}, depths);
+  }
   for (std::size_t t = 0; t < frames.size() && set.has_skin_limbs; ++t) {
     for (const bool is_left : {true, false}) {
       const SideOf side(frames[t], is_left);
       MoveLeg(side, wands[t], used, depths);
-      if (!side.Has({kLeftShoulder, kRightShoulder, kLeftElbow, kLeftWrist})) continue;
+      if (!side.Has(kNeededForElbow)) continue;
       const double depth = depths.metres[Index(side.On(kLeftElbow))];
       side[kLeftElbow] = is_on_point ? BeforeElbow(side, depth) : BesideElbow(side, depths);
     }

@@ -31,9 +31,10 @@ struct Wands {
 /// radius. These sizes come from `sizes_m`, the file's own sizes: "LKNEEWIDTH", "RANKLEWIDTH", "LELBOWWIDTH",
 /// "RSHOULDEROFFSET", "MARKERDIAMETER" (otherwise 14 mm). Without a size, the distance is a share of a limb's length:
 /// 12 % of the thigh for the knee, 8.5 % of the shank for the ankle, and 13.5 % of the upper arm (between its markers)
-/// for elbow and shoulder. Joints with an outer and an inner marker stay (LiesUnderSkin). `frames` are in metres, with
-/// shoulders, elbows, wrists, knees and ankles at their markers; `wands` has as many frames. Returns a sentence about
-/// the moved joints, or "".
+/// for elbow and shoulder. Joints with an outer and an inner marker stay (LiesUnderSkin). In a frame that lacks a
+/// joint of the same limb, knee, ankle and elbow cannot be moved and are removed, unless that is so in every frame.
+/// `frames` are in metres, with shoulders, elbows, wrists, knees and ankles at their markers; `wands` has as many
+/// frames. Returns a sentence about the moved joints, or "".
 std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string, double>& sizes_m,
                                const std::vector<Wands>& wands, std::vector<JointPositions>& frames);
 

@@ -65,14 +65,15 @@ JointPositions OnTheSkin(JointPositions at, const std::array<double, 4>& depths,
 const MarkerSet& Gait() { return MarkerSets().back(); }
 
 constexpr std::size_t kSkinFrames = 40;
-constexpr std::array kSkinRoles = {kLeftShoulder, kLeftElbow, kLeftKnee, kLeftAnkle,
+constexpr std::array kSkinRoles = {kLeftShoulder,  kLeftElbow,  kLeftKnee,  kLeftAnkle,
                                    kRightShoulder, kRightElbow, kRightKnee, kRightAnkle};
 
 struct MovedMarkers {
   std::string said;
   double worst = 0;
 };
-MovedMarkers MovedFrom(const std::array<double, 4>& depths, ElbowMarker elbow, const std::map<std::string, double>& sizes) {
+MovedMarkers MovedFrom(const std::array<double, 4>& depths, ElbowMarker elbow,
+                       const std::map<std::string, double>& sizes) {
   std::vector<JointPositions> frames;
   for (std::size_t t = 0; t < kSkinFrames; ++t) frames.push_back(OnTheSkin(Centres(t), depths, elbow));
   MovedMarkers moved{.said = MoveToJointCentres(Gait(), sizes, std::vector<Wands>(kSkinFrames), frames)};
@@ -86,9 +87,10 @@ MovedMarkers MovedFrom(const std::array<double, 4>& depths, ElbowMarker elbow, c
 }
 
 TEST(SkinMarkers, AreMovedToTheCentresByTheFilesWidths) {
-  const std::map<std::string, double> sizes = {{"LKNEEWIDTH", .12},  {"RKNEEWIDTH", .12},     {"LANKLEWIDTH", .08},
-                                               {"RANKLEWIDTH", .08}, {"LELBOWWIDTH", .07},    {"RELBOWWIDTH", .07},
-                                               {"LSHOULDEROFFSET", .05}, {"RSHOULDEROFFSET", .05}, {"MARKERDIAMETER", .02}};
+  const std::map<std::string, double> sizes = {
+      {"LKNEEWIDTH", .12},      {"RKNEEWIDTH", .12},      {"LANKLEWIDTH", .08},
+      {"RANKLEWIDTH", .08},     {"LELBOWWIDTH", .07},     {"RELBOWWIDTH", .07},
+      {"LSHOULDEROFFSET", .05}, {"RSHOULDEROFFSET", .05}, {"MARKERDIAMETER", .02}};
   const MovedMarkers moved = MovedFrom({.07, .05, .045, .06}, ElbowMarker::kOutside, sizes);
   EXPECT_LT(moved.worst, 0.016);
   EXPECT_EQ(moved.said,
@@ -107,6 +109,36 @@ TEST(SkinMarkers, OnTheElbowsPointAreToldByUpperArmsThatKeepTheirLength) {
   const MovedMarkers moved = MovedFrom({.05, .035, .045, .045}, ElbowMarker::kPoint, {});
   EXPECT_LT(moved.worst, 0.016);
   EXPECT_THAT(moved.said, HasSubstr("Etude assumes that the elbow markers are on the point of the elbow"));
+}
+
+TEST(SkinMarkers, OfALimbWithAGapAreNotSeenRatherThanLeftOnTheSkin) {
+  const std::array<double, 4> depths = {0.067, 0.047, 0.042, 0.047};
+  const auto moved = [&](std::initializer_list<Role> lost, std::size_t from, std::size_t to) {
+    std::vector<JointPositions> frames;
+    for (std::size_t t = 0; t < kSkinFrames; ++t) {
+      frames.push_back(OnTheSkin(Centres(t), depths, ElbowMarker::kOutside));
+      for (const Role role : lost) {
+        if (t >= from && t < to) frames.back()[Index(role)].reset();
+      }
+    }
+    MoveToJointCentres(Gait(), {{"MARKERDIAMETER", .014}}, std::vector<Wands>(kSkinFrames), frames);
+    return frames;
+  };
+  const auto whole = moved({}, 0, 0), gap = moved({kLeftShoulder, kLeftAnkle}, 10, 15);
+  for (std::size_t t = 0; t < kSkinFrames; ++t) {
+    const bool is_gap = t >= 10 && t < 15;
+    // Both elbows need both shoulders; the right leg needs nothing of the left ankle.
+    for (const Role role : {kLeftElbow, kRightElbow, kLeftKnee})
+      EXPECT_NE(gap[t][Index(role)].has_value(), is_gap) << t;
+    for (const Role role : {kRightKnee, kRightAnkle, kRightWrist}) EXPECT_TRUE(gap[t][Index(role)]) << t;
+    for (const Role role : {kLeftElbow, kRightElbow, kLeftKnee}) {
+      if (is_gap) continue;
+      EXPECT_LT(glm::distance(*gap[t][Index(role)], *whole[t][Index(role)]), 0.004) << t;
+    }
+  }
+  // A file without wrists keeps its elbow markers.
+  const auto handless = moved({kLeftWrist, kRightWrist}, 0, kSkinFrames);
+  for (std::size_t t = 0; t < kSkinFrames; ++t) EXPECT_TRUE(handless[t][Index(kLeftElbow)]);
 }
 
 TEST(SkinMarkers, FollowTheWandsOfThighsAndShanks) {
