@@ -230,8 +230,11 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
   if (!options.alone.is_alone) {
     ASSIGN_OR_RETURN(notes, ReadPairNotes(outcome->folder));
   }
+  const DoubtList doubts = options.alone.is_alone ? DoubtsOf(data) : notes.doubts;
+  doubts.Tell();
   if (options.as_json) {
     Json facts = FactsOf(summary, folder);
+    facts["doubts"] = doubts.lines();
     facts["angles"] = FactsOf(angles);
     if (options.by_joint) facts["joints"] = FactsOf(ErrorsByJoint(data));
     facts["judged"] = notes.judged.Lines();

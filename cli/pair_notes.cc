@@ -27,6 +27,31 @@ std::vector<std::string> NoteKinds::Lines() const {
   return lines;
 }
 
+void DoubtList::Add(const Row& row) {
+  for (const std::string& doubt : DoubtsIn(row.result.reason)) {
+    const bool is_of_truth = doubt.starts_with(kDoubtedTruth);
+    const std::string head = is_of_truth ? row.clip : fmt::format("{}, {}", row.method, row.clip);
+    std::string line = head + ": " + doubt;
+    if (!known_.insert(line).second) continue;
+    kinds_.Add(is_of_truth ? "" : row.method, head, doubt);
+    lines_.push_back(std::move(line));
+  }
+}
+
+void DoubtList::Tell() const {
+  constexpr std::size_t kMaxLines = 20;
+  const std::vector<std::string> lines = kinds_.Lines();
+  for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
+    fmt::print(stderr, "{}\n", line);
+  if (lines.size() > kMaxLines) fmt::print(stderr, "and {} other doubts; see `etude rows`\n", lines.size() - kMaxLines);
+}
+
+DoubtList DoubtsOf(const RunData& run) {
+  DoubtList doubts;
+  ForEachRow(run, [&](const Row& row, std::size_t) { doubts.Add(row); });
+  return doubts;
+}
+
 Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder) {
   PairNotes notes;
   RETURN_IF_ERROR(WriteRows(folder, Sealing::kRequired, [&](std::string_view text) -> Result<void> {
@@ -35,7 +60,9 @@ Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder) {
     const std::string under = row.condition.empty() ? "" : ", " + ConditionLabel(row.condition);
     const std::string head = fmt::format("{}, {}{}", row.method, row.clip, under);
     const bool is_judged = row.result.status == Status::kOk;
-    (is_judged ? notes.judged : notes.not_judged).Add(row.method + under, head, row.result.reason);
+    (is_judged ? notes.judged : notes.not_judged)
+        .Add(row.method + under, head, std::string(WithoutDoubts(row.result.reason)));
+    notes.doubts.Add(row);
     if (!is_judged) notes.every_not_judged.push_back(head + ": " + row.result.reason);
     return {};
   }));

@@ -16,11 +16,13 @@
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 #include "bench/run/shipped.h"
+#include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/dry_run.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/pair_notes.h"
 #include "cli/progress_bar.h"
 #include "engine/base/names.h"
 #include "reports/words/answer.h"
@@ -206,6 +208,14 @@ int ShowOutcome(const RunOutcome& outcome) {
     run = LoadRun(outcome.folder);  // rows hold the reasons
   if (!run) return Complain(run.error());
   PrintSummary(*run);
+  // Tell the doubts about judged files, which the rows hold.
+  if (std::ranges::any_of(run->scenarios, [](const ScenarioSummary& one) {
+        return FindTaskKind(one.task) != nullptr && FindTaskKind(one.task)->find_files;
+      })) {
+    const auto rows = LoadRunRowByRow(outcome.folder);
+    if (!rows) return Complain(rows.error());
+    DoubtsOf(*rows).Tell();
+  }
   const std::string folder = outcome.folder.string();
   const bool has_silent = HasSilentMethod(*run);
   if (has_silent) {

@@ -12,6 +12,19 @@ namespace etude {
 /// How the reason of a cell begins if its program answered `no_answer`; such a cell has the status unsolved.
 inline constexpr std::string_view kGaveNoAnswer = "gave no answer: ";
 
+/// How a doubt about the truth begins, which all methods of a world share.
+inline constexpr std::string_view kDoubtedTruth = "the truth: ";
+
+/// Returns the notes on a file that are no doubts.
+std::vector<std::string> NotesWithoutDoubts(const std::vector<std::string>& notes,
+                                            const std::vector<std::string>& doubts);
+/// Returns the end of a reason that states doubts about a file: " · doubtful: WHO DOUBT" for each; "" without doubts.
+std::string DoubtfulPart(std::string_view who, const std::vector<std::string>& doubts);
+/// Returns a reason without its DoubtfulParts.
+std::string_view WithoutDoubts(std::string_view reason);
+/// Returns the doubts in a reason, each with the file that it is about: "the answer: …".
+std::vector<std::string> DoubtsIn(std::string_view reason);
+
 /// Returns true if the cell's method gave an answer: its status is ok, or it is unsolved because the answer missed the
 /// goal.
 bool HasAnswer(const CellResult& result);

@@ -25,6 +25,12 @@ glm::dvec3 CubicAt(const RawMotion& motion, std::size_t from, double u, std::siz
 
 }  // namespace
 
+void RawMotion::Doubt(const std::string& text) {
+  if (text.empty() || std::ranges::find(doubts, text) != doubts.end()) return;
+  doubts.push_back(text);
+  if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
+}
+
 int RawMotion::Find(std::string_view joint) const {
   if (const auto role = FindRole(joint)) return roles[Index(*role)];
   const auto found =

@@ -37,7 +37,11 @@ struct RawMotion {
   /// the file has no such labels.
   std::vector<bool> contacts;
   std::vector<std::string> notes;  ///< one sentence for each conversion or guess of the reader
+  std::vector<std::string> doubts = {};  ///< the entries of `notes` that state what looks wrong in the file
   bool is_of_camera = false;       ///< true: rotated from a camera's frame, so height 0 is not that of a floor
+
+  /// Appends `text` to `doubts` and, if it is new, to `notes`. Does nothing if `text` is empty or a doubt already.
+  void Doubt(const std::string& text);
 
   std::size_t FrameCount() const { return joints.empty() ? 0 : positions.size() / joints.size(); }
   const glm::dvec3& At(std::size_t frame, std::size_t joint) const { return positions[frame * joints.size() + joint]; }

@@ -369,21 +369,19 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   if (!axis.empty()) {
     const bool lies = standing == Standing::kAlongZ, is_down = standing == Standing::kAlongMinusY;
     if (lies || is_down) {
-      motion.notes.push_back(fmt::format("with the file's `up: {}`, the body {}", axis,
-                                         lies ? "lies along the floor" : "stands on its head"));
+      motion.Doubt(fmt::format("with the file's `up: {}`, the body {}", axis,
+                               lies ? "lies along the floor" : "stands on its head"));
     }
   } else if (standing == Standing::kAlongMinusY) {
     motion.notes.emplace_back(kFromCamera);
     motion.is_of_camera = true;
     for (glm::dvec3& place : motion.positions) place *= glm::dvec3(1, -1, -1);
   } else if (standing == Standing::kOnHands) {
-    motion.notes.emplace_back(kOnHands);
+    motion.Doubt(kOnHands);
   } else if (standing == Standing::kAlongZ) {
-    motion.notes.emplace_back(
-        "with Y up, the body lies along Z; if it stands, state `up: z` in the file or in a joint map");
+    motion.Doubt("with Y up, the body lies along Z; if it stands, state `up: z` in the file or in a joint map");
   } else if (const auto body = told.up ? std::nullopt : BodyOf(motion)) {
-    std::string doubt = FindUp(body->poses, motion.rate_hz, RawArraysUp()).doubt;
-    if (!doubt.empty()) motion.notes.push_back(std::move(doubt));
+    motion.Doubt(FindUp(body->poses, motion.rate_hz, RawArraysUp()).doubt);
   }
   return motion;
 }

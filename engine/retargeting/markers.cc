@@ -294,7 +294,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   StandOnFloor(options.keep_floor, set.is_own, body);
   if (!options.keeps_shown) return body;
   body.shown = AsShown(scale, markers, set, columns, seen, body.up.axis);
-  for (const std::string& said : {centres, DescribeTurn(body.up), body.up.doubt}) {
+  for (const std::string& said : {centres, DescribeTurn(body.up)}) {
     if (!said.empty()) body.shown.notes[0] += "; " + said;
   }
   return body;

@@ -81,6 +81,7 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
                      .unseen = std::move(unseen),
                      .is_of_markers = is_of_markers,
                      .notes = std::move(body.changes),
+                     .doubts = std::move(body.doubts),
                      .is_floor_known = !opened.source.made || opened.source.made->is_floor_known,
                      .others = std::move(others)};
 }

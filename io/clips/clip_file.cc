@@ -233,14 +233,13 @@ Result<ClipFile> FileOfArrays(std::string_view bytes, const std::optional<std::s
                               const OpenOptions& options) {
   ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
   if (IsBodyNpz(arrays)) {
-    ASSIGN_OR_RETURN(const auto raw, ReadRawNpz(arrays, path, ToldOfArrays(options)));
+    ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, path, ToldOfArrays(options)));
     if (const auto motion = BodyOf(raw)) {
+      raw.Doubt(DescribeExchangedJoints(RolesIn(raw), raw.rate_hz));
       std::vector<std::string> notes = {"Etude's own arrays"};
       notes.insert(notes.end(), raw.notes.begin(), raw.notes.end());
-      if (auto crossing = DescribeExchangedJoints(RolesIn(raw), raw.rate_hz); !crossing.empty()) {
-        notes.push_back(std::move(crossing));
-      }
       ClipFile file = FileOfBody(ClipFormat::kNpz, *motion, path, std::move(notes));
+      file.bodies[0].doubts = raw.doubts;
       file.bodies[0].start_s = raw.start_s;
       file.bodies[0].is_floor_known = !raw.is_of_camera;
       if (const auto up = ToldUp(options)) file.bodies[0].up = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold};

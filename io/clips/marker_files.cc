@@ -70,11 +70,14 @@ Result<ClipFile> FileOfJoints(ClipFormat format, const RawMotion& motion, const 
   MarkerOptions told = ToldOfMarkers(options, RawArraysUp());
   told.is_of_camera = motion.is_of_camera;
   ASSIGN_OR_RETURN(auto file, FileOfMarkers(format, MarkersOf(motion), path, told));
-  const auto add_notes = [&](std::vector<std::string>& said) {
-    said.insert(said.end(), motion.notes.begin(), motion.notes.end());
+  const auto add = [](const std::vector<std::string>& from, std::vector<std::string>& said) {
+    said.insert(said.end(), from.begin(), from.end());
   };
-  for (MadeBody& body : file.bodies) add_notes(body.changes);
-  for (RawMotion& shown : file.shown) add_notes(shown.notes);
+  for (MadeBody& body : file.bodies) {
+    add(motion.notes, body.changes);
+    add(motion.doubts, body.doubts);
+  }
+  for (RawMotion& shown : file.shown) add(motion.notes, shown.notes);
   return file;
 }
 

@@ -151,7 +151,7 @@ RawMotion OfUnknownMarkers(const MarkerFile& file, const std::string& reference,
 Result<RawMotion> OfArrays(const Npz& arrays, const std::string& reference, const OpenOptions& options) {
   ASSIGN_OR_RETURN(auto raw, ReadRawNpz(arrays, reference, ToldOfArrays(options)));
   const auto body = BodyOf(raw);
-  if (std::string said = body ? DescribeImpossibleHeight(body->poses) : ""; !said.empty()) raw.notes.push_back(said);
+  if (body) raw.Doubt(DescribeImpossibleHeight(body->poses));
   if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);
   return raw;
 }
@@ -164,6 +164,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
   RawMotion raw;
   if (source.shown != nullptr) {
     raw = *source.shown;
+    if (source.made) std::ranges::for_each(source.made->doubts, [&](const std::string& said) { raw.Doubt(said); });
   } else {
     // UnderstandClip finds roles, unit and up axis; the resampled motion and the floor that it computes are not used
     // here.
@@ -188,6 +189,7 @@ Result<RawMotion> RawMotionOf(SourceClip source, const OpenOptions& options, boo
     } else {
       raw.notes = NotesOn(opened);
     }
+    for (const std::string& doubt : opened.body.doubts) raw.Doubt(doubt);
   }
   raw.name = name;
   if (raw.roles[Index(Role::kHipCentre)] < 0) AddMidwayHips(raw);

@@ -14,6 +14,10 @@ from etude.program import EtudeError, call
 from etude.results import load
 
 
+class DoubtWarning(UserWarning):
+    """Something looks wrong in a judged file or array, such as its up axis, its unit or its sides."""
+
+
 def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
              music_beats=None, metrics=(), alone=False, floor=None, limits=None, output=None, overwrite=False, jobs=None,
              progress=True, program=None, unit=None, up=None, **answers):
@@ -31,7 +35,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
 
     Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Raises
     TypeError or ValueError for arguments that cannot be used, before anything is written. Warns of pairs that are not
-    judged.
+    judged, and with a DoubtWarning of what looks wrong in the motions.
     """
     output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
@@ -70,7 +74,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             arguments += [flag, str(value)] if value is not None else []
     for metric in [metrics] if isinstance(metrics, str) else metrics:
         arguments += ["--metric", metric]
-    arguments += ["-o", str(output)] + ["--overwrite"] * overwrite
+    arguments += ["-o", str(output)] + ["--overwrite"] * overwrite + ["--json"]
     if arrays and not overwrite and (output / "manifest.json").exists():  # do not replace the arrays of an earlier run
         raise EtudeError(f"{output} already exists; use overwrite=True to replace it", 2)
     for path, content in arrays.items():
@@ -78,6 +82,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         path.write_bytes(content)
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
+    for doubt in json.loads(printed)["doubts"]:
+        warnings.warn(doubt, DoubtWarning, stacklevel=2)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
         rows.sort(key=lambda row: row["status"] == "skipped")  # skipped cells last: their reasons say least

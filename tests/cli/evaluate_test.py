@@ -262,8 +262,9 @@ class Evaluate(EtudeCase):
         wrong = self.trc_file("wrong.trc", frames)
         for truth, answer, whose in ((wrong, self.shared / "clap.csv", "truth"), (self.shared / "clap.npz", wrong, "answer")):
             self.evaluate(truth, answer, out=self.folder / whose)
-            told = next(part for part in self.rows(self.folder / whose)[0]["reason"].split("; ") if "exchange" in part)
-            self.assertEqual(told, "left and right exchange positions from one frame to the next, 2 times (first at 0.67 s): "
+            doubts = self.rows(self.folder / whose)[0]["reason"].split(" · doubtful: ")[1:]
+            told = next(doubt for doubt in doubts if "exchange" in doubt)
+            self.assertEqual(told, f"the {whose}: left and right exchange positions from one frame to the next, 2 times (first at 0.67 s): "
                              "left_wrist – right_wrist")
         self.evaluate(self.shared / "clap.npz", self.shared / "clap.csv")
         self.assertNotIn("exchange", self.rows()[0]["reason"])
@@ -364,6 +365,41 @@ class Evaluate(EtudeCase):
             table.write_text(text.format(truth, mine), encoding="utf-8")
             self.evaluate("--pairs", table, out=self.folder / f"out{i}")
             self.assertEqual([row["method"] for row in self.rows(self.folder / f"out{i}")], ["mine"])
+
+    def test_doubts_of_the_reader_are_told_in_the_row_and_in_the_facts(self):
+        truth = self.trc_file("truth/a.trc", self.frames)
+        lying = self.trc_file("mine/a.trc", [[[x, -z, y] for x, y, z in frame] for frame in self.frames])
+        done = self.evaluate(truth, f"mine={lying}", "--json")
+        doubts = json.loads(done.stdout)["doubts"]
+        self.assertEqual(len(doubts), 1, doubts)
+        self.assertRegex(doubts[0], "^mine, a: the answer: .*along Z")
+        self.assertIn(doubts[0], done.stderr)
+        doubt = doubts[0].removeprefix("mine, a: ")
+        row, = self.rows()
+        self.assertTrue(row["reason"].endswith(" · doubtful: " + doubt), row["reason"])
+        self.assertEqual(row["reason"].count("along Z"), 1, "a doubt is said once")
+
+        # A doubtful truth is told once, not for each method.
+        done = self.evaluate(lying, f"a={truth}", f"b={truth}", "--json", out=self.folder / "two")
+        about_truth = [line for line in json.loads(done.stdout)["doubts"] if "the truth: " in line]
+        self.assertEqual(about_truth, ["a: the truth: " + doubt.removeprefix("the answer: ")])
+
+        done = self.evaluate("--alone", lying, "--json", out=self.folder / "alone")
+        self.assertRegex(json.loads(done.stdout)["doubts"][0], "along Z")
+        row, = self.rows(self.folder / "alone")
+        self.assertIn(" · doubtful: ", row["reason"])
+
+        clean = self.evaluate(truth, f"a={truth}", "--json", out=self.folder / "clean")
+        self.assertEqual(json.loads(clean.stdout)["doubts"], [])
+
+    def test_doubts_are_told_by_a_run_too(self):
+        truth = self.trc_file("truth/a.trc", self.frames)
+        lying = self.trc_file("mine/a.trc", [[[x, -z, y] for x, y, z in frame] for frame in self.frames])
+        scenario = self.write("e.yaml", "scenario: e\nquestion: q?\ntask: evaluation\n"
+                              f"truth: [{truth}]\nmethods: [{{name: mine, answers: [{lying}]}}]\n")
+        done = self.ends(0, "run", scenario, "-o", self.out)
+        self.assertRegex(done.stderr, "mine, a: the answer: .*along Z")
+        self.assertIn(" · doubtful: the answer: ", self.rows()[0]["reason"])
 
     def test_a_copy_of_the_truth_is_told(self):
         copy = self.folder / "mine.npz"

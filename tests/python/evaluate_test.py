@@ -3,6 +3,7 @@ import math
 import os
 import shutil
 import unittest
+import warnings
 
 from python_case import PythonCase
 
@@ -31,6 +32,15 @@ class Evaluate(PythonCase):
         self.assertAlmostEqual(row["mpjpe_unaligned_mm"], 12.5, 12)
         self.assertAlmostEqual(row["mpjpe_root_mm"], 0, 12)
         self.assertAlmostEqual(row["seen_share"], 1 - 1 / (20 * len(NAMES)), 12)
+
+    def test_an_array_that_lies_along_another_axis_is_warned_of(self):
+        lying = [[[x, -z, y] for x, y, z in frame] for frame in standing(20)]
+        given = {"names": NAMES, "rate_hz": 30, "progress": False}
+        with self.assertWarnsRegex(etude.DoubtWarning, "mine, .*: the answer: .*along Z"):
+            etude.evaluate(standing(20), mine=lying, output=self.folder / "run", **given)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", etude.DoubtWarning)
+            etude.evaluate(standing(20), mine=standing(20, across=0.01), output=self.folder / "clean", **given)
 
     def test_arrays_are_written_nowhere_else_and_over_none(self):
         given = {"truth": standing(3), "names": NAMES, "rate_hz": 30, "output": self.folder / "run", "progress": False}

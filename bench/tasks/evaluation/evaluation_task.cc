@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/model/reasons.h"
 #include "bench/model/recording.h"
 #include "bench/model/unit.h"
 #include "bench/recordings/evaluation_extras.h"
@@ -40,12 +41,12 @@ Recording RecordingOf(const MatchedMotions& matched) {
   return {{}, WriteEvaluationExtras(extras)};
 }
 
-/// Adds notes on features that no person's motion has (DoubtsOnBody). Only motions of points, which have no rotations,
-/// are judged: UnderstandClip already refuses skeletons whose sides are exchanged, and the joints of animators' figures
-/// may move apart.
+/// Adds doubts about features that no person's motion has (DoubtsOnBody). Only motions of points, which have no
+/// rotations, are judged: UnderstandClip already refuses skeletons whose sides are exchanged, and the joints of
+/// animators' figures may move apart.
 void AddDoubts(RawMotion& motion) {
   if (!motion.rotations.empty()) return;
-  std::ranges::move(DoubtsOnBody(RolesIn(motion), motion.rate_hz), std::back_inserter(motion.notes));
+  for (const std::string& doubt : DoubtsOnBody(RolesIn(motion), motion.rate_hz)) motion.Doubt(doubt);
 }
 
 /// The world of one pair of files. The truth is read when the world is made, each answer when it is judged.
@@ -65,7 +66,7 @@ class EvaluationWorld final : public FileWorld {
       RawMotion answer = Spoilt(noisy, control.spoiler, files_.name + ", control");
       if (study_.has_only_controls) answer.contacts = ContactsByMotion(answer);
       HideWorst(answer, *truth_, control.spoiler.hidden_percent);
-      return Judged(answer);
+      return WithDoubts(Judged(answer), {});
     }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
@@ -76,10 +77,17 @@ class EvaluationWorld final : public FileWorld {
     if (result.status == Status::kOk && result.digests[0].second == result.digests[1].second) {
       result.reason += ", every position equals the truth's: is the answer a copy of the truth?";
     }
-    return result;
+    return WithDoubts(std::move(result), answer->doubts);
   }
 
  private:
+  /// Ends the reason of a cell with the doubts about the truth and the answer.
+  CellResult WithDoubts(CellResult result, const std::vector<std::string>& of_answer) const {
+    result.reason += DoubtfulPart(kDoubtedTruth, truth_->doubts);
+    result.reason += DoubtfulPart("the answer: ", of_answer);
+    return result;
+  }
+
   /// Reads the truth. If all methods are controls, answers are copies of the truth. Rotations that the reader
   /// computed from positions (RigClip) are then kept, and foot contacts are found from the motion.
   static Result<RawMotion> Open(const EvaluationStudy& study, const std::string& reference) {

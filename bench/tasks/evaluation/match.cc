@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/model/reasons.h"
 #include "bench/tasks/evaluation/common_joints.h"
 #include "bench/tasks/evaluation/judged_frames.h"
 #include "engine/base/names.h"
@@ -251,8 +252,9 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
     note += fmt::format(", {} of the truth outside the answer", count(matched.uncovered, "frame"));
   note += NoteOnUnseen(matched, is_covered);
   for (const RawMotion* motion : {&truth, &answer}) {
-    if (motion->notes.empty()) continue;
-    note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(motion->notes, "; "));
+    const std::vector<std::string> notes = NotesWithoutDoubts(motion->notes, motion->doubts);  // doubts end the reason
+    if (notes.empty()) continue;
+    note += fmt::format("; {}: {}", motion == &truth ? "truth" : "answer", Join(notes, "; "));
   }
   return note;
 }

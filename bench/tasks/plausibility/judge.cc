@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/metrics/plausibility.h"
+#include "bench/model/reasons.h"
 #include "bench/model/recording.h"
 #include "bench/recordings/task_extras.h"
 #include "engine/base/digest.h"
@@ -154,7 +155,9 @@ CellResult JudgeAlone(BodyInPlace body, const PlausibilityOptions& options, bool
   if (found.faults.empty()) words.emplace_back("no fault");
   const std::string file = fmt::format("{}, {}", ExtentWords(body, judged), FloorWords(found, options));
   result.reason = fmt::format("{}{}{}", Join(words, "; "), kAboutFile, file);
-  if (!body.notes.empty()) result.reason += ", " + Join(body.notes);
+  const std::vector<std::string> notes = NotesWithoutDoubts(body.notes, body.doubts);
+  if (!notes.empty()) result.reason += ", " + Join(notes);
+  result.reason += DoubtfulPart("", body.doubts);
   result.digests = {{"motion", DigestOf(body)}};
   if (keeps_motion) result.recording = RecordingOf(std::move(body), found);
   return result;
