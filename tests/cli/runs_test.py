@@ -105,7 +105,7 @@ methods: [{name: hue}]
             self.ends(0, "clip", "convert", f"builtin:{move}", clips / f"{name}.bvh")
         (clips / "b.bvh").write_bytes((clips / "a.bvh").read_bytes())
         scenario = self.write("t.yaml", f"scenario: t\nquestion: q?\ntask: tracking\nclips: ['{clips}/*.bvh']\ntrials: 4\n"
-                                        "methods: [{name: a, solver: ccd, weights: fixed}]\n")
+                                        "methods: [{name: a, solver: damped-least-squares}]\n")
         told = self.ends(0, "run", scenario, "-o", self.out)
         self.assertIn(f"b.bvh: was left out: is a byte copy of '{clips}/a.bvh'", told.stderr)
         setup, = json.loads((self.out / "manifest.json").read_text())["scenarios"]
