@@ -571,7 +571,7 @@ class Formats(MotionFileCase):
         self.assertIn("m tall; allowed: 0.4 to 4 m; with 1 unit = 100 cm (metre), the body would be 1.", result.stderr)
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
-        clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]
+        clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=51)]
         told = ["--clips", *clips, "--unit", "cm", "--up", "y"]
         self.ends(0, "run", self.scenario(), "-o", self.out, *told)
         manifest = json.loads((self.out / "manifest.json").read_text())
@@ -582,7 +582,7 @@ class Formats(MotionFileCase):
         self.assertIn("with the given unit (1 unit = 0.1 cm)", refused.stderr)
 
     def test_a_run_leaves_out_what_is_refused_when_asked(self):
-        self.turned("a.bvh"), self.turned("b.bvh")
+        self.turned("a.bvh"), self.turned("b.bvh", unit=100)
         (self.folder / "broken.bvh").write_text("HIERARCHY\nROOT\n")
         pattern = self.folder / "*.bvh"
         self.assertIn("broken.bvh", self.ends(2, "run", self.scenario(), "-o", self.out, "--clips", pattern).stderr)
