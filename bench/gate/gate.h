@@ -7,14 +7,12 @@
 #include "bench/gate/comparison.h"
 #include "bench/gate/fallen_answers.h"
 #include "bench/gate/finished_run.h"
+#include "bench/model/judged_time.h"
 
 namespace etude {
 
-/// A time ratio is met only if the median time of `over` is at least this long, and unmet only if that of `of` is. A
-/// cell is timed once, and a method that runs after another method first pays for cold caches, about 0.1 ms. In 0.5 ms,
-/// this is a fifth.
-inline constexpr double kMinJudgedSeconds = 0.0005;
-
+/// A time ratio. It is met only if the median time of `over` is at least kMinJudgedSeconds, and unmet only if that of
+/// `of` is.
 struct RatioResult {
   std::string scenario;
   TimeRatio rule;

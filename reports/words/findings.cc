@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "bench/model/judged_time.h"
 #include "engine/base/order_statistics.h"
 #include "reports/words/answer.h"
 #include "reports/words/cell_series.h"
@@ -99,6 +100,7 @@ class Times {
 
 std::string TimeText(std::optional<double> seconds) {
   if (!seconds) return std::string(kNoValue);
+  if (*seconds < kMinJudgedSeconds) return FormatNumber(*seconds * 1000) + " ms (too short to judge)";
   return *seconds < 1 ? FormatNumber(*seconds * 1000) + " ms" : FormatNumber(*seconds) + " s";
 }
 

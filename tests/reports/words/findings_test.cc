@@ -218,6 +218,11 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
   EXPECT_EQ(figures.methods[0].values[3], "");
+  // Cold caches are a large part of a short time.
+  for (auto& [id, seconds] : run.cpu_seconds) seconds *= 0.001;
+  const KeyFigures brief = FindingsOf(run, run.scenarios[0]).figures;
+  EXPECT_EQ(brief.methods[1].values[2], "0.250 ms (too short to judge)");
+  EXPECT_EQ(brief.methods[2].values[2], "2.00 ms");
   // Nothing is said about times that were not measured, nor without a comparison.
   EXPECT_EQ(FindingsOf(UnitRun(), run.scenarios[0]).figures.labels.size(), 3u);
   EXPECT_TRUE(FindingsOf(RunData{}, OneComparison({}, {"fixed"})).figures.methods.empty());
