@@ -64,7 +64,7 @@ class Systems(EtudeCase):
         log = root.parent / f"{root.name}.log"
         with open(log, "a") as into:
             code = subprocess.run(["unshare", "--mount", "--propagation", "private", "bash", "-c", script, "in", root],
-                                  stdout=into, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode
+                                  env={}, stdout=into, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode
         self.assertEqual(code, 0, log.read_text()[-5000:])
 
     def builds_passes_and_runs_quick(self, suite, number):
