@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -11,6 +12,51 @@
 #include "engine/retargeting/marker_sets.h"
 
 namespace etude {
+namespace {
+
+/// Returns the faults of a motion in which joints may be missing. A gap, in which the last pose is kept, is no freeze.
+std::vector<MotionFault> FaultsIn(std::span<const JointPositions> frames, double rate_hz) {
+  // A joint that is not seen stays where it was, or is put midway between others.
+  BodyMotion body{.rate_hz = rate_hz, .poses = {}};
+  std::vector<JointSet> unseen;
+  for (const JointPositions& frame : frames) {
+    const auto lacks = [&](Role role) { return !frame[Index(role)]; };
+    if (body.poses.empty() && std::ranges::any_of(kNeededJoints, lacks)) continue;
+    BodyPose pose = body.poses.empty() ? BodyPose{} : body.poses.back();
+    JointSet& hidden = unseen.emplace_back();
+    for (const Role role : AllRoles()) {
+      if (!lacks(role)) pose[role] = *frame[Index(role)];
+      hidden.set(Index(role), lacks(role));
+    }
+    const auto put_midway = [&](Role role, Role a, Role b) {
+      if (lacks(role)) pose[role] = 0.5 * (pose[a] + pose[b]);
+    };
+    put_midway(Role::kHipCentre, Role::kLeftHip, Role::kRightHip);
+    put_midway(Role::kShoulderCentre, Role::kLeftShoulder, Role::kRightShoulder);
+    put_midway(Role::kSpine, Role::kHipCentre, Role::kShoulderCentre);
+    body.poses.push_back(pose);
+  }
+  const double begin_s = static_cast<double>(frames.size() - body.poses.size()) / rate_hz;
+  std::vector<MotionFault> faults = FindMotionFaults(body, {.begin_s = begin_s, .unseen = unseen}).faults;
+  const auto is_gap = [&](const MotionFault& fault) {
+    const auto frame_at = [&](double at_s) { return std::llround((at_s - begin_s) * rate_hz); };
+    return fault.kind == FaultKind::kFreezes &&
+           std::any_of(unseen.begin() + frame_at(fault.from_s), unseen.begin() + frame_at(fault.to_s),
+                       [](const JointSet& hidden) {
+                         return std::ranges::any_of(kNeededJoints, [&](Role role) { return hidden[Index(role)]; });
+                       });
+  };
+  std::erase_if(faults, is_gap);
+  return faults;
+}
+
+std::vector<std::string> SentencesOf(FaultKind kind, std::vector<MotionFault> faults) {
+  std::erase_if(faults, [&](const MotionFault& fault) { return fault.kind != kind; });
+  return FaultSentences(faults);
+}
+
+}  // namespace
+
 std::string DescribeFlatBody(std::span<const JointPositions> frames) {
   constexpr double kFlat = 0.01, kMostly = 0.9;
   std::array<std::size_t, 3> flat{};
@@ -35,41 +81,23 @@ std::string DescribeFlatBody(std::span<const JointPositions> frames) {
          "`etude capture --keypoints`";
 }
 
+std::vector<std::string> DescribeFreezes(std::span<const JointPositions> frames, double rate_hz) {
+  return SentencesOf(FaultKind::kFreezes, FaultsIn(frames, rate_hz));
+}
+
 std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz) {
   std::vector<std::string> doubts;
   if (auto said = DescribeExchangedJoints(frames, rate_hz); !said.empty()) doubts.push_back(std::move(said));
   if (auto said = DescribeFlatBody(frames); !said.empty()) doubts.push_back(std::move(said));
-  // Make a body. A joint that is not seen stays where it was, or is put midway between others.
-  BodyMotion body{.rate_hz = rate_hz, .poses = {}};
-  std::vector<JointSet> unseen;
-  for (const JointPositions& frame : frames) {
-    const auto lacks = [&](Role role) { return !frame[Index(role)]; };
-    if (body.poses.empty() && std::ranges::any_of(kNeededJoints, lacks)) continue;
-    BodyPose pose = body.poses.empty() ? BodyPose{} : body.poses.back();
-    JointSet& hidden = unseen.emplace_back();
-    for (const Role role : AllRoles()) {
-      if (!lacks(role)) pose[role] = *frame[Index(role)];
-      hidden.set(Index(role), lacks(role));
-    }
-    const auto put_midway = [&](Role role, Role a, Role b) {
-      if (lacks(role)) pose[role] = 0.5 * (pose[a] + pose[b]);
-    };
-    put_midway(Role::kHipCentre, Role::kLeftHip, Role::kRightHip);
-    put_midway(Role::kShoulderCentre, Role::kLeftShoulder, Role::kRightShoulder);
-    put_midway(Role::kSpine, Role::kHipCentre, Role::kShoulderCentre);
-    body.poses.push_back(pose);
-  }
-  // Choose torn joints and bent knees, which errors of single positions do not explain.
-  std::vector<MotionFault> torn;
+  // Choose torn joints, frozen frames and bent knees, which errors of single positions do not explain.
+  const std::vector<MotionFault> faults = FaultsIn(frames, rate_hz);
+  std::ranges::move(SentencesOf(FaultKind::kTorn, faults), std::back_inserter(doubts));
+  std::ranges::move(SentencesOf(FaultKind::kFreezes, faults), std::back_inserter(doubts));
   std::array<std::string, 2> bends;
-  const double begin_s = static_cast<double>(frames.size() - body.poses.size()) / rate_hz;
-  const MotionFaults found = FindMotionFaults(body, {.begin_s = begin_s, .unseen = std::move(unseen)});
-  for (const MotionFault& fault : found.faults) {
-    if (fault.kind == FaultKind::kTorn) torn.push_back(fault);
+  for (const MotionFault& fault : faults) {
     if (fault.kind != FaultKind::kBends) continue;
     if (std::string& first = bends[fault.joint == Role::kLeftKnee ? 0 : 1]; first.empty()) first = fault.text;
   }
-  std::ranges::move(FaultSentences(torn), std::back_inserter(doubts));
   if (!bends[0].empty() && !bends[1].empty()) doubts.push_back(bends[0] + "; " + bends[1] + ": is an axis mirrored?");
   return doubts;
 }

@@ -273,7 +273,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   }
   // Describe the corrections.
   if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
-  if (body.motion.poses.size() < frames.size()) {
+  const bool uses_all = options.keeps_shown && !options.keeps_others;  // MarkerBody::shown has all frames
+  if (body.motion.poses.size() < frames.size() && !uses_all) {
     body.Doubt(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));
   }
   if (!centres.empty()) body.changes.push_back(centres);

@@ -389,6 +389,10 @@ class Evaluate(EtudeCase):
         row, = self.rows(self.folder / "alone")
         self.assertIn(" · doubtful: ", row["reason"])
 
+        late = self.trc_file("late/a.trc", self.frames[:1] * 10 + self.frames[:-10])
+        done = self.evaluate(truth, f"late={late}", "--json", out=self.folder / "lag")
+        self.assertRegex(json.loads(done.stdout)["doubts"][0], "^late, a: the answer seems to be 0.333 s late")
+
         clean = self.evaluate(truth, f"a={truth}", "--json", out=self.folder / "clean")
         self.assertEqual(json.loads(clean.stdout)["doubts"], [])
 

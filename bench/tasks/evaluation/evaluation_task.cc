@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "bench/model/reasons.h"
 #include "bench/model/recording.h"
@@ -41,12 +42,15 @@ Recording RecordingOf(const MatchedMotions& matched) {
   return {{}, WriteEvaluationExtras(extras)};
 }
 
-/// Adds doubts about features that no person's motion has (DoubtsOnBody). Only motions of points, which have no
-/// rotations, are judged: UnderstandClip already refuses skeletons whose sides are exchanged, and the joints of
-/// animators' figures may move apart.
+/// Adds doubts about features that no person's motion has. Skeletons are only searched for frozen frames:
+/// UnderstandClip already refuses those whose sides are exchanged, and the joints of animators' figures may move apart.
 void AddDoubts(RawMotion& motion) {
-  if (!motion.rotations.empty()) return;
-  for (const std::string& doubt : DoubtsOnBody(RolesIn(motion), motion.rate_hz)) motion.Doubt(doubt);
+  const auto frames = RolesIn(motion);
+  const bool is_skeleton = !motion.rotations.empty();
+  for (const std::string& doubt :
+       is_skeleton ? DescribeFreezes(frames, motion.rate_hz) : DoubtsOnBody(frames, motion.rate_hz)) {
+    motion.Doubt(doubt);
+  }
 }
 
 /// The world of one pair of files. The truth is read when the world is made, each answer when it is judged.
@@ -66,25 +70,27 @@ class EvaluationWorld final : public FileWorld {
       RawMotion answer = Spoilt(noisy, control.spoiler, files_.name + ", control");
       if (study_.has_only_controls) answer.contacts = ContactsByMotion(answer);
       HideWorst(answer, *truth_, control.spoiler.hidden_percent);
-      return WithDoubts(Judged(answer), {});
+      return WithDoubts(Judged(answer).first, {}, {});
     }
     const std::string& reference = files_.answers[method];
     if (reference.empty()) return CellResult::Ended(Status::kFailed, "the method has no answer of this name");
     auto answer = OpenRawMotion(reference, study_.opening);
     if (!answer) return CellResult::Ended(Status::kFailed, ToString(answer.error()));
     AddDoubts(*answer);
-    CellResult result = Judged(*answer);
+    auto [result, on_pair] = Judged(*answer);
     if (result.status == Status::kOk && result.digests[0].second == result.digests[1].second) {
       result.reason += ", every position equals the truth's: is the answer a copy of the truth?";
     }
-    return WithDoubts(std::move(result), answer->doubts);
+    return WithDoubts(std::move(result), answer->doubts, on_pair);
   }
 
  private:
-  /// Ends the reason of a cell with the doubts about the truth and the answer.
-  CellResult WithDoubts(CellResult result, const std::vector<std::string>& of_answer) const {
+  /// Ends the reason of a cell with the doubts about the truth, the answer, and the two together.
+  CellResult WithDoubts(CellResult result, const std::vector<std::string>& on_answer,
+                        const std::vector<std::string>& on_pair) const {
     result.reason += DoubtfulPart(kDoubtedTruth, truth_->doubts);
-    result.reason += DoubtfulPart("the answer: ", of_answer);
+    result.reason += DoubtfulPart("the answer: ", on_answer);
+    result.reason += DoubtfulPart("", on_pair);
     return result;
   }
 
@@ -97,9 +103,10 @@ class EvaluationWorld final : public FileWorld {
     return truth;
   }
 
-  CellResult Judged(const RawMotion& answer) const {
+  /// Returns the cell, and doubts about truth and answer together.
+  std::pair<CellResult, std::vector<std::string>> Judged(const RawMotion& answer) const {
     const auto matched = Match(*truth_, answer, study_.options.joints, study_.options.lag);
-    if (!matched) return CellResult::Ended(Status::kFailed, ToString(matched.error()));
+    if (!matched) return {CellResult::Ended(Status::kFailed, ToString(matched.error())), {}};
     const EvaluationSideData side = study_.has_only_controls ? SideDataOf(*matched, study_.side) : study_.side;
     CellResult result = JudgeMotion(*matched, side);
     if (!files_.same_as.empty()) {
@@ -108,7 +115,7 @@ class EvaluationWorld final : public FileWorld {
           study_.are_worlds_units ? "but each is a unit of its own (unit: world)" : "so the two are one unit");
     }
     if (keeps_motion_) result.recording = RecordingOf(*matched);
-    return result;
+    return {std::move(result), matched->doubts};
   }
 
   const EvaluationStudy& study_;

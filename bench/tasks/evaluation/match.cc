@@ -8,6 +8,7 @@
 #include "bench/model/reasons.h"
 #include "bench/tasks/evaluation/common_joints.h"
 #include "bench/tasks/evaluation/judged_frames.h"
+#include "bench/tasks/evaluation/pair_doubts.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 
@@ -376,6 +377,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     is_covered.push_back(frame >= 0 && frame <= static_cast<double>(answer.FrameCount()) - 1);
   }
   matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
+  matched.doubts = DoubtsOnPair(truth, answer, common, matched, start_s);
   return matched;
 }
 

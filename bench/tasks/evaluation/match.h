@@ -40,6 +40,7 @@ struct MatchedMotions {
   std::size_t surplus = 0;                ///< number of frames of the answer that the truth does not cover
   std::optional<TimeShift> lag;           ///< the time shift that was found and removed
   std::string note;                       ///< a note on the match, in one line
+  std::vector<std::string> doubts;        ///< whether the files describe one motion in the same way (DoubtsOnPair)
 
   /// Returns the answer's own frames, for metrics of the answer alone. Fields of the truth may be empty.
   const EvaluatedPair& OwnFrames() const { return own ? *own : pair; }

@@ -138,6 +138,13 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
     for (MarkerPosition& place : flat[f]) place->z = 0.9 + 0.001 * static_cast<double>(f % 7);
   }
   EXPECT_THAT(DoubtsOnBody(flat, kRate_hz), Contains(HasSubstr("the body is flat, without depth")));
+  // Lost frames that were filled with the last pose are a freeze; frames without joints are not.
+  std::vector<JointPositions> frozen = Dance("boxing");
+  std::fill(frozen.begin() + 15, frozen.begin() + 51, frozen[15]);
+  EXPECT_THAT(DescribeFreezes(frozen, kRate_hz), ElementsAre(HasSubstr("from 0.50 to 1.67 s")));
+  EXPECT_THAT(DoubtsOnBody(frozen, kRate_hz), testing::IsSupersetOf(DescribeFreezes(frozen, kRate_hz)));
+  std::fill(frozen.begin() + 15, frozen.begin() + 51, JointPositions{});
+  EXPECT_THAT(DescribeFreezes(frozen, kRate_hz), IsEmpty());
   // Frames without points give no message, nor does a recording without frames.
   EXPECT_THAT(DoubtsOnBody(std::vector<JointPositions>(20), kRate_hz), IsEmpty());
   EXPECT_THAT(DoubtsOnBody({}, kRate_hz), IsEmpty());

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/evaluation/options.h"
@@ -16,6 +18,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 CellResult ResultOf(const RawMotion& truth, const RawMotion& answer, const std::string& joints = "roles") {
   const auto matched = Match(truth, answer, joints, Lag::kNone);
@@ -449,6 +452,108 @@ TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
     EXPECT_NE(FindMetric(id), nullptr) << id;
   }
   EXPECT_EQ(result.metrics.size(), EvaluationMetrics().size());
+}
+
+// Doubts about truth and answer together (DoubtsOnPair).
+
+std::vector<std::string> Doubts(const RawMotion& truth, const RawMotion& answer, Lag lag = Lag::kNone) {
+  const auto matched = Match(truth, answer, "roles", lag);
+  EXPECT_TRUE(matched) << ToString(matched.error());
+  return matched->doubts;
+}
+
+RawMotion Changed(RawMotion motion, const std::function<glm::dvec3(glm::dvec3)>& change) {
+  for (glm::dvec3& p : motion.positions) p = change(p);
+  return motion;
+}
+
+/// Returns `motion` with an error of at most `size_m` in each coordinate, which differs from joint to joint and from
+/// frame to frame.
+RawMotion WithErrors(RawMotion motion, double size_m) {
+  double at = 0;
+  return Changed(std::move(motion), [&](const glm::dvec3& p) {
+    at += 1;
+    return p + size_m * glm::dvec3(std::sin(12.9 * at), std::sin(78.2 * at), std::sin(37.7 * at));
+  });
+}
+
+TEST(DoubtsOnPair, AreNoneOfAnswersThatAreOnlyWrong) {
+  const RawMotion truth = Swaying(30, 150, 0);
+  EXPECT_THAT(Doubts(truth, truth), IsEmpty());
+  for (const double size_m : {0.01, 0.1, 0.5}) EXPECT_THAT(Doubts(truth, WithErrors(truth, size_m)), IsEmpty());
+  // Another heading, a place beside the truth, another size, and a part of the truth.
+  EXPECT_THAT(Doubts(truth, Changed(truth,
+                                    [](const glm::dvec3& p) {
+                                      return glm::dvec3(0.8 * p.x + 0.6 * p.z + 2, p.y, 0.8 * p.z - 0.6 * p.x);
+                                    })),
+              IsEmpty());
+  EXPECT_THAT(Doubts(truth, Changed(truth, [](const glm::dvec3& p) { return 0.9 * p; })), IsEmpty());
+  EXPECT_THAT(Doubts(truth, Swaying(30, 60, 0)), IsEmpty());
+  EXPECT_THAT(Doubts(truth, Swaying(120, 600, 0)), IsEmpty()) << "another rate, which the file states";
+  // A body that stands still fits at every time.
+  EXPECT_THAT(Doubts(truth, Gliding(30, 150)), IsEmpty());
+  EXPECT_THAT(Doubts(Gliding(30, 150), WithErrors(Gliding(30, 150), 0.1)), IsEmpty());
+  // The motion in reverse, and one whose limbs sway at other times.
+  RawMotion other = truth;
+  std::ranges::reverse(other.positions);
+  for (std::size_t f = 0; f < 150; ++f) {
+    const auto frame = other.positions.begin() + static_cast<std::ptrdiff_t>(f * truth.joints.size());
+    std::reverse(frame, frame + static_cast<std::ptrdiff_t>(truth.joints.size()));
+  }
+  EXPECT_THAT(Doubts(truth, other), IsEmpty());
+  for (std::size_t j = 0; j < truth.joints.size(); ++j) {
+    const RawMotion late = Swaying(30, 150, 0.7 * static_cast<double>(j));
+    for (std::size_t f = 0; f < 150; ++f) {
+      other.positions[f * truth.joints.size() + j] = late.At(f, j);
+    }
+  }
+  EXPECT_THAT(Doubts(truth, other), IsEmpty());
+}
+
+TEST(DoubtsOnPair, NameARootThatStaysAtTheOrigin) {
+  const RawMotion truth = Swaying(30, 60, 0);
+  const auto hip = static_cast<std::size_t>(truth.roles[Index(Role::kHipCentre)]);
+  RawMotion answer = truth;
+  for (std::size_t f = 0; f < 60; ++f) {
+    for (std::size_t j = 0; j < truth.joints.size(); ++j) {
+      answer.positions[f * truth.joints.size() + j] -= truth.At(f, hip);
+    }
+  }
+  EXPECT_THAT(Doubts(truth, answer), ElementsAre(HasSubstr("the root of the answer stays at the origin")));
+  EXPECT_THAT(Doubts(answer, truth), ElementsAre(HasSubstr("the root of the truth stays at the origin")));
+  EXPECT_THAT(Doubts(answer, answer), IsEmpty());
+}
+
+TEST(DoubtsOnPair, NameTheAxesThatFit) {
+  const RawMotion truth = Swaying(30, 60, 0);
+  // The truth's X is the answer's Z, and the truth's Z is the answer's −X.
+  const auto turned = WithErrors(Changed(truth, [](const glm::dvec3& p) { return glm::dvec3(-p.z, p.y, p.x); }), 0.01);
+  EXPECT_THAT(Doubts(truth, turned),
+              ElementsAre(HasSubstr("seem to point along the truth's −Z, Y, X: with these axes")));
+  const auto round = Changed(truth, [](const glm::dvec3& p) { return glm::dvec3(3 - p.x, p.y, -p.z); });
+  EXPECT_THAT(Doubts(truth, round), ElementsAre(HasSubstr("along the truth's −X, Y, −Z")));
+}
+
+TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
+  const RawMotion truth = Swaying(30, 150, 0);
+  EXPECT_THAT(Doubts(truth, Swaying(30, 150, 0.5)), ElementsAre(HasSubstr("the answer seems to be 0.5 s late")));
+  EXPECT_THAT(Doubts(truth, WithErrors(Swaying(120, 600, -0.2), 0.01)),
+              ElementsAre(HasSubstr("the answer seems to be 0.2 s early")));
+  EXPECT_THAT(Doubts(truth, Swaying(30, 150, 0.5), Lag::kFind), IsEmpty()) << "the lag was removed";
+  EXPECT_THAT(Doubts(Swaying(120, 600, 0), Swaying(30, 150, 0.012)), IsEmpty()) << "less than a frame";
+}
+
+TEST(DoubtsOnPair, NameTheRateAtWhichTheAnswerSpansTheTruth) {
+  // Every second frame, with the rate of all frames.
+  const RawMotion truth = Swaying(30, 151, 0);
+  RawMotion answer = Swaying(15, 76, 0);
+  EXPECT_THAT(Doubts(truth, answer), IsEmpty());
+  answer.rate_hz = 30;
+  EXPECT_THAT(Doubts(truth, answer), ElementsAre(HasSubstr("is its rate about 15 Hz instead of 30?")));
+  // All frames, with half the rate.
+  answer = truth;
+  answer.rate_hz = 15;
+  EXPECT_THAT(Doubts(truth, answer), ElementsAre(HasSubstr("is its rate about 30 Hz instead of 15?")));
 }
 
 }  // namespace

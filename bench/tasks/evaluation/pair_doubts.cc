@@ -1,0 +1,193 @@
+#include "bench/tasks/evaluation/pair_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "bench/metrics/alignment.h"
+#include "bench/metrics/time_shift.h"
+
+namespace etude {
+namespace {
+
+constexpr double kToMm = 1000;
+
+/// Returns a doubt if one root stays at the origin and the other one does not; otherwise "".
+std::string DoubtOnRoots(const EvaluatedPair& pair) {
+  constexpr double kAtOrigin_m = 0.001, kElsewhere_m = 0.05;
+  const auto reach = [](const std::vector<glm::dvec3>& root) {
+    double farthest = -1;  // −1: never seen
+    for (const glm::dvec3& p : root) farthest = std::max(farthest, IsSeen(p) ? glm::length(p) : -1);
+    return farthest;
+  };
+  const double of_found = reach(pair.found_root), of_truth = reach(pair.true_root);
+  const auto [least, most] = std::minmax(of_found, of_truth);
+  if (least < 0 || least > kAtOrigin_m || most < kElsewhere_m) return "";
+  return fmt::format(
+      "the root of the {} stays at the origin, and the {}'s does not: if positions are relative to the root, only "
+      "metrics that align each frame, such as mpjpe_root_mm, are meaningful",
+      of_found < of_truth ? "answer" : "truth", of_found < of_truth ? "truth" : "answer");
+}
+
+/// Returns a doubt if the answer fits far better with other axes; otherwise "".
+std::string DoubtOnAxes(const EvaluatedPair& pair) {
+  constexpr double kNearAxis = 0.99, kFarBetter = 0.1, kMin_mm = 50;
+  const auto fit = Fit(MomentsOf(pair.found.positions, pair.truth.positions), false);
+  if (!fit) return "";
+  // Name, for each axis of the answer, the axis of the truth along which it lies.
+  std::string axes;
+  int named = 0;
+  bool is_changed = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int to = 0; to < 3; ++to) {
+      const double along = fit->rotation[axis][to];
+      if (std::abs(along) < kNearAxis) continue;
+      axes += fmt::format("{}{}{}", axes.empty() ? "" : ", ", along < 0 ? "−" : "", "XYZ"[to]);
+      ++named;
+      is_changed = is_changed || to != axis || along < 0;
+    }
+  }
+  if (!is_changed || named < 3) return "";
+  const auto mean_mm = [&](const Similarity& change) {
+    FrameFits fits;
+    fits.fits = {change};
+    fits.length = pair.found.FrameCount();
+    return MeanJointErrorMm(pair, fits).value_or(0);
+  };
+  const double before = mean_mm({}), after = mean_mm(*fit);
+  if (before < kMin_mm || after > kFarBetter * before) return "";
+  return fmt::format(
+      "the answer's axes X, Y, Z seem to point along the truth's {}: with these axes, and moved, its mean joint error "
+      "is "
+      "{:.3g} mm instead of {:.3g}",
+      axes, after, before);
+}
+
+/// Compares distances between joints, on which a file's origin, axes and root have no effect. At most eight joints and
+/// 150 frames of the truth, evenly chosen, are compared.
+class DistanceComparison {
+ public:
+  DistanceComparison(const RawMotion& truth, const RawMotion& answer, const std::vector<CommonJoint>& common)
+      : truth_(truth), answer_(answer) {
+    constexpr std::size_t kMaxJoints = 8, kMaxFrames = 150;
+    const std::size_t count = std::min(common.size(), kMaxJoints);
+    for (std::size_t i = 0; i < count; ++i) joints_.push_back(common[i * common.size() / count]);
+    stride_ = 1 + truth.FrameCount() / kMaxFrames;
+    for (std::size_t f = 0; f < truth.FrameCount(); f += stride_) true_.push_back(DistancesAt(f, truth_, true));
+  }
+
+  struct Difference {
+    double rms_m = std::numeric_limits<double>::infinity(), count = 0;
+  };
+
+  /// Compares frame f of the truth with the answer's frame nearest to `at(f)`. The mean difference of each pair of
+  /// joints is left out, because bodies differ.
+  template <typename At>
+  Difference Compare(const At& at) const {
+    std::array<double, kMaxPairs> counts{}, sums{}, squares{};
+    for (std::size_t i = 0; i < true_.size(); ++i) {
+      const double frame = std::round(at(static_cast<double>(i * stride_)));
+      if (frame < 0 || frame >= static_cast<double>(answer_.FrameCount())) continue;
+      const auto found = DistancesAt(static_cast<std::size_t>(frame), answer_, false);
+      for (std::size_t pair = 0; pair < kMaxPairs; ++pair) {
+        const double difference = found[pair] - true_[i][pair];
+        if (std::isnan(difference)) continue;
+        counts[pair] += 1;
+        sums[pair] += difference;
+        squares[pair] += difference * difference;
+      }
+    }
+    double sum = 0, count = 0;
+    for (std::size_t pair = 0; pair < kMaxPairs; ++pair) {
+      if (counts[pair] > 0) sum += std::max(0.0, squares[pair] - sums[pair] * sums[pair] / counts[pair]);
+      count += counts[pair];
+    }
+    if (count == 0) return {};
+    return {std::sqrt(sum / count), count};
+  }
+
+ private:
+  static constexpr std::size_t kMaxPairs = 28;
+
+  std::array<double, kMaxPairs> DistancesAt(std::size_t frame, const RawMotion& motion, bool is_truth) const {
+    std::array<double, kMaxPairs> distances{};
+    distances.fill(std::nan(""));
+    std::size_t pair = 0;
+    const auto at = [&](const CommonJoint& joint) -> const glm::dvec3& {
+      return motion.At(frame, static_cast<std::size_t>(is_truth ? joint.truth : joint.answer));
+    };
+    for (std::size_t a = 0; a < joints_.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) distances[pair++] = glm::distance(at(joints_[a]), at(joints_[b]));
+    }
+    return distances;
+  }
+
+  const RawMotion &truth_, &answer_;
+  std::vector<CommonJoint> joints_;
+  std::size_t stride_ = 1;
+  std::vector<std::array<double, kMaxPairs>> true_;
+};
+
+/// Returns a doubt if the answer fits far better at other times; otherwise "".
+std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const std::vector<CommonJoint>& common,
+                         double start_s) {
+  constexpr double kFarBetter = 0.5, kMin_m = 0.01, kMinCompared = 0.5, kOtherLength = 0.05;
+  constexpr std::size_t kMinFrames = 5;
+  if (std::min(truth.FrameCount(), answer.FrameCount()) < kMinFrames) return "";
+  const DistanceComparison comparison(truth, answer, common);
+  const auto shifted = [&](double shift_s) {
+    return comparison.Compare([&](double f) { return (f / truth.rate_hz + start_s + shift_s) * answer.rate_hz; });
+  };
+  const auto paired = shifted(0);
+  if (!(paired.rms_m > kMin_m) || paired.count == 0) return "";
+  // Find the best shift in whole frames of the truth. A shift at the end of the range is not believed.
+  const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth.rate_hz));
+  double best_m = kFarBetter * paired.rms_m;
+  int best = 0;
+  for (int shift = -reach; shift <= reach; ++shift) {
+    const auto there = shifted(shift / truth.rate_hz);
+    if (there.count < kMinCompared * paired.count || there.rms_m >= best_m) continue;
+    best_m = there.rms_m;
+    best = shift;
+  }
+  // Spread the answer over the whole truth, as if it had another rate.
+  const double truth_steps = static_cast<double>(truth.FrameCount()) - 1,
+               answer_steps = static_cast<double>(answer.FrameCount()) - 1,
+               rate_hz = answer_steps / truth_steps * truth.rate_hz;
+  if (std::abs(rate_hz / answer.rate_hz - 1) > kOtherLength) {
+    const auto spread = comparison.Compare([&](double f) { return f * answer_steps / truth_steps; });
+    if (spread.rms_m < kFarBetter * (best == 0 ? paired.rms_m : best_m)) {
+      return fmt::format(
+          "spread over the whole truth, the answer's frames fit far better: is its rate about {:.0f} Hz instead of "
+          "{:.4g}?",
+          rate_hz, answer.rate_hz);
+    }
+  }
+  // A shift below one frame of the slower file may only come from taking the nearest frames.
+  const double frames = std::abs(best) / truth.rate_hz * std::min(truth.rate_hz, answer.rate_hz);
+  if (!(frames >= 1) || std::abs(best) == reach) return "";
+  return fmt::format(
+      "the answer seems to be {:.3g} s {}: with this shift, distances between joints differ by {:.3g} mm "
+      "instead of {:.3g} (--lag find measures and removes it)",
+      std::abs(best) / truth.rate_hz, best > 0 ? "late" : "early", kToMm * best_m, kToMm * paired.rms_m);
+}
+
+}  // namespace
+
+std::vector<std::string> DoubtsOnPair(const RawMotion& truth, const RawMotion& answer,
+                                      const std::vector<CommonJoint>& common, const MatchedMotions& matched,
+                                      double start_s) {
+  std::vector<std::string> doubts{DoubtOnRoots(matched.pair)};
+  // A doubt about one of the files, such as its up axis, usually explains other axes.
+  if (truth.doubts.empty() && answer.doubts.empty()) doubts.push_back(DoubtOnAxes(matched.pair));
+  if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, common, start_s));
+  std::erase(doubts, "");
+  return doubts;
+}
+
+}  // namespace etude
