@@ -308,8 +308,8 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
   PrintHalves(real, fit, checks);
   fmt::print("\n");
   if (!at_bounds.empty()) {
-    fmt::print("{} settings are at the limit of what the fit allows, so the sensor does not fit: {}\n",
-               at_bounds.size(), Join(at_bounds));
+    fmt::print("The sensor does not fit, because settings are at the limit of what the fit allows: {}\n",
+               Join(at_bounds));
   }
   TellWritten(options.output);
   aside.End();

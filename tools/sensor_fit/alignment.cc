@@ -39,7 +39,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
-    const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + shift_s);
+    const auto carriers = CarriersAt(twin, recording.TimeOf(t) + shift_s);
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       if (recording.frames[t][j] && carriers[j]) pairs.push_back({j, *recording.frames[t][j], *carriers[j]});
     }
@@ -137,11 +137,14 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Returns how clearly a[t] and b[t + lag] are correlated: Pearson's correlation in its standard deviations by chance,
-/// 1 / √n. A high correlation of a short overlap, which chance gives easily, counts less than one of a long overlap.
-/// Returns nullopt if the two series overlap for less than a second.
-std::optional<double> ClarityAt(const std::vector<std::optional<double>>& a,
-                                const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
+/// Pearson's correlation of two series, and the number of places in which both have a value.
+struct Correlation {
+  double r = 0, n = 0;
+};
+
+/// Returns the correlation of a[t] and b[t + lag]; nullopt if the two series overlap for less than a second.
+std::optional<Correlation> CorrelationAt(const std::vector<std::optional<double>>& a,
+                                         const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   for (long t = std::max(0L, -lag); t < static_cast<long>(a.size()) && t + lag < static_cast<long>(b.size()); ++t) {
     const auto &x = a[static_cast<std::size_t>(t)], &y = b[static_cast<std::size_t>(t + lag)];
@@ -155,23 +158,28 @@ std::optional<double> ClarityAt(const std::vector<std::optional<double>>& a,
   }
   const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
   if (n < rate_hz || va <= 0 || vb <= 0) return std::nullopt;
-  return (sab - sa * sb / n) / std::sqrt(va * vb) * std::sqrt(n);
+  return Correlation{(sab - sa * sb / n) / std::sqrt(va * vb), n};
 }
 
-/// Finds the shift with the clearest correlation of speeds. At least half of the shorter recording must overlap.
-double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
+/// Returns the shift at which speeds correlate most, and the one at which they correlate most clearly: r √n, the
+/// correlation in its standard deviations by chance. Chance gives a short overlap a high r, and a motion that repeats
+/// gives a long overlap a high r √n, so either may be wrong. At least half of the shorter recording must overlap.
+std::array<double, 2> ShiftsBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
   const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), min_overlap = std::min(na, nb) / 2;
-  double best = -std::numeric_limits<double>::infinity();
-  long best_lag = 0;
+  std::array<double, 2> best;
+  best.fill(-std::numeric_limits<double>::infinity());
+  std::array<double, 2> shifts{};
   for (long lag = min_overlap - na; lag <= nb - min_overlap; ++lag) {
-    const auto clarity = ClarityAt(a, b, lag, recording.rate_hz);
-    if (clarity && *clarity > best) {
-      best = *clarity;
-      best_lag = lag;
+    const auto found = CorrelationAt(a, b, lag, recording.rate_hz);
+    for (std::size_t i = 0; found && i < best.size(); ++i) {
+      const double score = i == 0 ? found->r * std::sqrt(found->n) : found->r;
+      if (score <= best[i]) continue;
+      best[i] = score;
+      shifts[i] = static_cast<double>(lag) / recording.rate_hz;
     }
   }
-  return static_cast<double>(best_lag) / recording.rate_hz;
+  return shifts;
 }
 
 bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, std::size_t stride) {
@@ -207,7 +215,7 @@ std::optional<TwinMatch> Finish(const JointRecording& recording, const TwinMotio
   FitAlternately(pairs, kFinalIterations, alignment);
   TwinMatch match{.alignment = alignment, .truth = {}};
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {
-    const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + alignment.shift_s);
+    const auto carriers = CarriersAt(twin, recording.TimeOf(t) + alignment.shift_s);
     RolePositions& places = match.truth.emplace_back();
     for (const Role role : AllRoles()) places[Index(role)] = alignment.JointAt(carriers[Index(role)], role);
   }
@@ -224,10 +232,17 @@ std::optional<glm::dvec3> TwinAlignment::JointAt(const std::optional<Carrier>& c
 
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin) {
   if (recording.frames.empty() || twin.frames.empty()) return std::nullopt;
-  TwinAlignment start;
-  start.shift_s = ShiftBySpeeds(recording, twin);
+  // The clearest correlation comes first; the highest one must fit far better to replace it.
+  constexpr double kFarBetter = 0.7;
   const double frame_s = 1 / recording.rate_hz;
-  const auto coarse = BestShift(recording, twin, start, 6 * frame_s, frame_s);
+  std::optional<TwinAlignment> coarse;
+  for (const double shift_s : ShiftsBySpeeds(recording, twin)) {
+    if (coarse && std::abs(coarse->shift_s - shift_s) <= 6 * frame_s) continue;
+    TwinAlignment start;
+    start.shift_s = shift_s;
+    const auto found = BestShift(recording, twin, start, 6 * frame_s, frame_s);
+    if (found && (!coarse || found->rms_m < kFarBetter * coarse->rms_m)) coarse = found;
+  }
   if (!coarse) return std::nullopt;
   return RealignTwin(recording, twin, *coarse, 1.5 * frame_s);
 }

@@ -121,27 +121,70 @@ Result<void> CheckBones(const std::vector<RolePositions>& frames, const std::str
               RoleName(*ParentOf(end)), RoleName(end), longest, kMinLongest_m, kMaxBone_m);
 }
 
+/// Gives each row of a CSV with uneven times the nearest even time. Of several rows for one time, the nearest is kept.
+/// Returns how much later than its even time each frame's row is, seconds; nothing if no frame lies between two rows.
+Result<std::vector<double>> EvenTimes(JointCsv& csv, const std::string& file) {
+  ASSIGN_OR_RETURN(const auto grid, GridOfRows(csv.times_s, csv.lines, std::nullopt, kRoleCount, file));
+  const auto is_between = [](const GridFrame& frame) { return !frame.is_hole && frame.part > 0; };
+  if (!grid || std::ranges::none_of(grid->frames, is_between)) return std::vector<double>{};
+  const double start_s = csv.times_s[grid->frames.front().row];
+  std::vector<double> late_s(grid->frames.size() + 1);  // the last row may be nearest to the time after the grid's end
+  std::vector<std::optional<std::size_t>> rows(late_s.size());
+  for (std::size_t row = 0; row < csv.times_s.size(); ++row) {
+    const double place = (csv.times_s[row] - start_s) * grid->rate_hz, frame = std::round(place);
+    if (!(frame >= 0) || frame >= static_cast<double>(rows.size())) continue;
+    const auto k = static_cast<std::size_t>(frame);
+    const double late = (place - frame) / grid->rate_hz;
+    if (rows[k] && std::abs(late_s[k]) <= std::abs(late)) continue;
+    rows[k] = row;
+    late_s[k] = late;
+  }
+  JointCsv even = csv;
+  even.times_s.clear();
+  even.numbers.clear();
+  even.lines.clear();
+  even.frames.clear();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!rows[k]) continue;
+    even.times_s.push_back(start_s + static_cast<double>(k) / grid->rate_hz);
+    if (!csv.numbers.empty()) even.numbers.push_back(csv.numbers[*rows[k]]);
+    even.lines.push_back(csv.lines[*rows[k]]);
+    even.frames.push_back(csv.frames[*rows[k]]);
+  }
+  csv = std::move(even);
+  return late_s;
+}
+
 /// The rows of a joint CSV on even frames. `rate_hz` is nullopt if the file has no times.
 struct LaidCsv {
   std::optional<double> rate_hz;
   std::vector<RolePositions> frames;
   std::string remark;
+  std::vector<double> late_s;  ///< JointRecording::late_s
 };
 
 /// Reads a joint CSV. With `rate_hz`, the times only say which rows are missing; if they cannot be used, frame numbers
-/// say it.
-Result<LaidCsv> ReadLaidCsv(std::string_view text, const std::string& file, std::optional<double> rate_hz) {
+/// say it. If `keeps_rows` is true, each frame is one of the file's rows; otherwise rows are interpolated.
+Result<LaidCsv> ReadLaidCsv(std::string_view text, const std::string& file, std::optional<double> rate_hz,
+                            bool keeps_rows) {
   ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
-  auto laid = LayOnClock(csv, file);
+  Result<std::vector<double>> late_s;
+  if (keeps_rows) late_s = EvenTimes(csv, file);
+  auto laid = late_s ? LayOnClock(csv, file) : tl::unexpected(late_s.error());
   if (!laid && rate_hz) {
+    const std::string why = "Etude does not use the times: " + ToString(laid.error());
+    csv.remark += (csv.remark.empty() ? "" : "; ") + why;
     csv.times_s.assign(csv.times_s.size(), std::numeric_limits<double>::quiet_NaN());
     csv.rate_hz.reset();
+    late_s = std::vector<double>{};
     laid = LayOnClock(csv, file);
   }
   if (!laid) return tl::unexpected(laid.error());
-  LaidCsv made{.rate_hz = rate_hz, .frames = {}, .remark = std::move(laid->remark)};
+  LaidCsv made{.rate_hz = rate_hz, .frames = {}, .remark = std::move(laid->remark), .late_s = *std::move(late_s)};
   if (!rate_hz && csv.rate_hz) made.rate_hz = laid->rate_hz;
   for (const auto& places : laid->frames) std::ranges::copy(places, made.frames.emplace_back().begin());
+  if (!made.late_s.empty()) made.late_s.resize(made.frames.size());
+  for (double& late : made.late_s) late *= laid->rate_hz / made.rate_hz.value_or(laid->rate_hz);
   RETURN_IF_ERROR(CheckBones(made.frames, file));
   return made;
 }
@@ -176,8 +219,9 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
                                           std::optional<double> rate_hz) {
   JointRecording recording;
   if (IsJointCsv(text)) {
-    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz));
+    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz, true));
     recording.frames = std::move(csv.frames);
+    recording.late_s = std::move(csv.late_s);
     recording.rate_hz = csv.rate_hz.value_or(kJudgedRateHz);
     recording.remark = std::move(csv.remark);
   } else {
@@ -192,7 +236,7 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds) {
   if (IsJointCsv(text)) {
-    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz));
+    ASSIGN_OR_RETURN(auto csv, ReadLaidCsv(text, file, rate_hz, false));
     TwinMotion twin = TwinOfJoints(csv.frames);
     twin.rate_hz = csv.rate_hz ? *csv.rate_hz : UsualRate(twin.frames.size(), seconds);
     twin.remark = std::move(csv.remark);
@@ -208,6 +252,7 @@ JointRecording Excerpt(const JointRecording& recording, std::size_t begin, std::
   JointRecording part{.rate_hz = recording.rate_hz, .frames = {}, .sensor_at = recording.sensor_at};
   for (std::size_t t = begin; t < std::min(end, recording.frames.size()); ++t) {
     part.frames.push_back(recording.frames[t]);
+    if (!recording.late_s.empty()) part.late_s.push_back(recording.late_s[t]);
   }
   return part;
 }

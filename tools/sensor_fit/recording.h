@@ -22,8 +22,13 @@ struct JointRecording {
   /// The position of the sensor in the recording's coordinate frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
   std::string remark = "";  ///< a message for the user about the file's times; "" if there is none
+  /// How much later than its even time each frame was taken, seconds; empty: all frames have even times.
+  std::vector<double> late_s = {};
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
+  double TimeOf(std::size_t frame) const {
+    return static_cast<double>(frame) / rate_hz + (late_s.empty() ? 0 : late_s[frame]);
+  }
 };
 
 /// The rigid body that carries a joint (for example an optical target), measured by a second capture system
@@ -43,9 +48,10 @@ struct TwinMotion {
 };
 
 /// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV. The first row decides the format. The
-/// rows of a CSV are placed on even frames by their times (LayOnClock); in a frame whose row is missing, no joint is
-/// seen. `rate_hz` replaces the rate of the times. A failure states the file, the line and what is allowed; so do bones
-/// of a length that no person has, because then the positions are not in metres.
+/// rows of a CSV are placed on the nearest even frames by their times (GridOfRows) and keep their own times
+/// (JointRecording::late_s), because interpolation would average their noise away. In a frame whose row is missing, no
+/// joint is seen. `rate_hz` replaces the rate of the times. A failure states the file, the line and what is allowed; so
+/// do bones of a length that no person has, because then the positions are not in metres.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);
 

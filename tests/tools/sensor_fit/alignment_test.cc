@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "tests/support/results.h"
 #include "tests/tools/sensor_fit/small_recording.h"
 
@@ -40,6 +43,30 @@ TEST(AlignTwin, OfAMotionThatRepeatsTakesTheShiftAtWhichTheWholeTakeOverlaps) {
   }
   ASSERT_OK(match, AlignTwin(recording, twin));
   EXPECT_NEAR(match->alignment.shift_s, 0, 0.02);
+}
+
+TEST(AlignTwin, OfAlikeMovesTakesTheShiftThatFitsEvenIfLessOverlaps) {
+  // One move comes again and again, each time a little smaller or larger. The recording begins in the middle.
+  const std::vector<std::string> moves = {"boxing"};
+  const BodyMotion once = AfterEachOther(moves);
+  const double seconds = static_cast<double>(once.poses.size() - 1) / once.rate_hz;
+  TwinMotion twin = DancingTwin(12 * seconds, 1, moves);
+  std::array<glm::dvec3, kRoleCount> first{};
+  for (std::size_t j = 0; j < kRoleCount; ++j) first[j] = twin.frames[0][j]->position;
+  for (std::size_t f = 0; f < twin.frames.size(); ++f) {
+    const double repeat = std::floor(static_cast<double>(f) / twin.rate_hz / seconds);
+    const double size = 1 + 0.15 * std::sin(5 * repeat);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      twin.frames[f][j]->position = glm::mix(first[j], twin.frames[f][j]->position, size);
+    }
+  }
+  const double begin_s = 5 * seconds;
+  JointRecording recording = PerfectRecording(twin, 7 * seconds - 0.1, {.shift_s = begin_s});
+  TwinMotion early = twin;
+  early.frames.resize(static_cast<std::size_t>(9.5 * seconds * twin.rate_hz));
+  ASSERT_OK(match, AlignTwin(recording, early));
+  EXPECT_NEAR(match->alignment.shift_s, begin_s, 0.02);
+  EXPECT_LT(match->alignment.rms_m, 1e-3);
 }
 
 TEST(AlignTwin, LeavesWhatTheSensorErrs) {

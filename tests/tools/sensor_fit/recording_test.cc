@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "engine/formats/joint_csv.h"
 #include "tests/sim/performer/all_moves.h"
 #include "tests/support/results.h"
@@ -56,6 +58,46 @@ TEST(ReadJointRecording, LeavesTheFramesOfMissingRowsEmpty) {
   ASSERT_OK(faster, ReadJointRecording(Dance(kFirst, kEnd), "gap.csv", 60));
   EXPECT_EQ(faster->rate_hz, 60);
   EXPECT_EQ(faster->frames.size(), whole->frames.size());
+}
+
+/// Returns the dance as CSV, of which each row's time is changed by `late_s(row)`.
+template <typename Late>
+std::string DanceAt(const Late& late_s) {
+  const auto csv = ReadJointCsv(Dance(0, 0), "whole.csv");
+  std::string text = csv->columns.heading + "\n";
+  for (std::size_t row = 0; row < csv->frames.size(); ++row) {
+    text += fmt::format("{},{:.9f}", row, csv->times_s[row] + late_s(row));
+    for (const auto& place : csv->frames[row]) text += fmt::format(",{},{},{}", place->x, place->y, place->z);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(ReadJointRecording, KeepsTheRowsOfUnevenTimesAndTheirTimes) {
+  ASSERT_OK(whole, ReadJointRecording(Dance(0, 0), "whole.csv", {}));
+  const auto late_s = [](std::size_t row) { return 0.009 * std::sin(2.2 * static_cast<double>(row)); };
+  ASSERT_OK(read, ReadJointRecording(DanceAt(late_s), "uneven.csv", {}));
+  ASSERT_EQ(read->frames.size(), whole->frames.size());
+  EXPECT_EQ(read->frames, whole->frames) << "interpolation would average the noise away";
+  for (std::size_t k = 0; k < read->frames.size(); k += 7) {
+    EXPECT_NEAR(read->TimeOf(k) - read->TimeOf(0), whole->TimeOf(k) + late_s(k) - late_s(0), 1e-3);
+  }
+  EXPECT_EQ(Excerpt(*read, 3, 9).late_s, std::vector(read->late_s.begin() + 3, read->late_s.begin() + 9));
+  // The rows of a reference are interpolated at even times, and then at the times of the recording's rows.
+  ASSERT_OK(twin, ReadTwinMotion(DanceAt(late_s), "uneven.csv", {}, 1));
+  ASSERT_OK(match, AlignTwin(*read, *twin));
+  JointRecording even = *read;
+  even.late_s.clear();
+  ASSERT_OK(matched_evenly, AlignTwin(even, *twin));
+  EXPECT_LT(match->alignment.rms_m, 0.5 * matched_evenly->alignment.rms_m);
+}
+
+TEST(ReadJointRecording, SaysWhyTimesAreNotUsed) {
+  const std::string jump = DanceAt([](std::size_t row) { return row < 100 ? 0.0 : 9000.0; });
+  EXPECT_FALSE(ReadJointRecording(jump, "jump.csv", {}));
+  ASSERT_OK(read, ReadJointRecording(jump, "jump.csv", 30));
+  EXPECT_EQ(SeenFrames(*read), read->frames.size());
+  EXPECT_THAT(read->remark, HasSubstr("Etude does not use the times: jump.csv:102"));
 }
 
 TEST(ReadTwinMotion, AReferenceWithMissingRowsFitsTheWholeRecording) {
