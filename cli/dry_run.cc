@@ -116,6 +116,7 @@ Json FactsOf(const Forecast& forecast, const Shard& shard) {
 int DryRunCommand(const RunOptions& options, bool as_json) {
   const auto forecast = DryRun(options, kSampleSeconds);
   if (!forecast) return Complain(forecast.error());
+  for (const RefusedClip& one : forecast->refused) Complain({{one.clip}, "is left out: " + one.why});
   if (as_json) {
     const auto printed = PrintFacts("run --dry-run", FactsOf(*forecast, options.shard));
     return printed ? kSuccess : Complain(printed.error());

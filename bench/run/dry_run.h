@@ -37,6 +37,7 @@ struct ScenarioForecast {
 
 struct Forecast {
   std::vector<ScenarioForecast> scenarios;
+  std::vector<RefusedClip> refused = {};  ///< clips and recordings that the run would leave out, each listed once
   std::size_t cells = 0;  ///< number of cells in the shard, or in the whole run
   double seconds = 0;     ///< wall time of `cells` cells with `workers` workers, seconds
   int workers = 1;

@@ -331,11 +331,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
                      .why_unlocked = claimed.why_unlocked(),
                      .damaged_lines = std::move(opened.damaged)};
-  for (const ScenarioSetup& setup : suite.scenarios) {
-    for (const RefusedClip& one : setup.refused) {
-      if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
-    }
-  }
+  outcome.refused = LeftOutOf(suite);
   for (const PreparedScenario& scenario : scenarios) {
     const std::vector<int>& filmed = scenario.scenario().recordings.trials;
     const int trials = scenario.scenario().trials;

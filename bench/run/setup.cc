@@ -100,6 +100,16 @@ Result<Seed> DecodeSeed(const Json& json, const Place& place) {
 
 }  // namespace
 
+std::vector<RefusedClip> LeftOutOf(const SuiteSetup& setup) {
+  std::vector<RefusedClip> all;
+  for (const ScenarioSetup& scenario : setup.scenarios) {
+    for (const RefusedClip& one : scenario.refused) {
+      if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+    }
+  }
+  return all;
+}
+
 Json EncodeSetup(const SuiteSetup& setup) {
   // Encode each scenario: first the keys that every scenario has, then those lists that are not empty.
   Json scenarios = Json::array();

@@ -76,6 +76,9 @@ struct SuiteSetup {
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
+/// Returns the files that the scenarios leave out, each listed once.
+std::vector<RefusedClip> LeftOutOf(const SuiteSetup& setup);
+
 /// Encodes a set-up as JSON. A secret seed is represented by its digest alone.
 Json EncodeSetup(const SuiteSetup& setup);
 /// Reads a set-up from JSON. Fails if the JSON is not a set-up, contains no scenario, or has a scenario with no or too

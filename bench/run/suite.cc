@@ -1,10 +1,12 @@
 #include "bench/run/suite.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "bench/run/manifest.h"
@@ -98,6 +100,7 @@ Result<void> RefuseDoubles(const std::vector<std::string>& references, const Pla
 Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& references, const OpenOptions& how,
                                                 const Place& place, std::vector<RefusedClip>& refused) {
   std::vector<std::string> understood;
+  const std::size_t before = refused.size();
   for (const std::string& reference : references) {
     ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place));
     for (const std::string& one : expanded) {
@@ -115,47 +118,55 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
     }
   }
   if (!references.empty() && understood.empty()) {
-    return Fail(place, "--skip-refused: none of {} clips can be read; the first: {}", refused.size(),
-                refused.empty() ? "there is none" : refused.front().why);
+    const std::span now = std::span(refused).subspan(before);
+    return Fail(place, "--skip-refused: none of {} clips can be read; the first: {}", now.size(),
+                now.empty() ? "there is none" : now.front().why);
   }
   return understood;
 }
 
 /// Leaves out the clips of files that are byte copies of earlier files, and adds them to `refused`. Otherwise one
-/// motion would count as two independent clips. Files whose motion also depends on other files are kept.
-Result<void> LeaveOutCopies(std::vector<std::string>& references, const OpenOptions& how, const Place& place,
-                            std::vector<RefusedClip>& refused) {
-  std::map<std::pair<std::string, std::optional<std::string>>, std::string> known;
-  std::vector<std::string> kept;
-  bool has_copy = false;
+/// motion would count as two independent clips. Files whose motion also depends on other files are kept. Only files of
+/// equal size are read.
+void LeaveOutCopies(std::vector<std::string>& references, const OpenOptions& how, const Place& place,
+                    std::vector<RefusedClip>& refused) {
+  std::vector<std::string> all, kept;
   for (const std::string& reference : references) {
     const auto expanded = ExpandReference(reference, place);
-    if (!expanded) return {};  // reading the clips reports it
-    for (const std::string& one : *expanded) {
-      const SplitReference split = Split(one);
-      const std::string ending = InLowerCase(std::filesystem::path(FileOf(split.path)).extension().string());
-      const auto digest = ending == ".amc" || ending == ".gltf" ? Result<std::string>(one) : DigestOfFile(one, how);
-      if (!digest) return {};
-      const auto [first, is_new] = known.emplace(std::pair(*digest, split.animation), one);
-      if (is_new) {
-        kept.push_back(one);
-      } else {
-        has_copy = true;
-        refused.push_back(
-            {one, fmt::format("is a byte copy of '{}', and one motion must not count twice", first->second)});
-      }
+    if (!expanded) return;  // reading the clips reports it
+    all.insert(all.end(), expanded->begin(), expanded->end());
+  }
+  const auto size_of = [](const std::string& file) {
+    std::error_code none;
+    const auto size = std::filesystem::file_size(file, none);
+    return none ? 0 : size;
+  };
+  std::map<std::uintmax_t, std::set<std::string>> of_size;
+  for (const std::string& one : all) of_size[size_of(FileOf(Split(one).path))].insert(FileOf(Split(one).path));
+  std::map<std::pair<std::string, std::optional<std::string>>, std::string> known;
+  for (const std::string& one : all) {
+    const SplitReference split = Split(one);
+    const std::string file = FileOf(split.path), ending = InLowerCase(std::filesystem::path(file).extension().string());
+    const bool may_be_copy = of_size[size_of(file)].size() > 1 && ending != ".amc" && ending != ".gltf";
+    const auto digest = may_be_copy ? DigestOfFile(one, how) : Result<std::string>(one);
+    if (!digest) return;
+    const auto [first, is_new] = known.emplace(std::pair(*digest, split.animation), one);
+    if (is_new) {
+      kept.push_back(one);
+    } else {
+      refused.push_back(
+          {one, fmt::format("is a byte copy of '{}', and one motion must not count twice", first->second)});
     }
   }
-  if (has_copy) references = std::move(kept);
-  return {};
+  if (kept.size() < all.size()) references = std::move(kept);
 }
 
 /// Applies LeaveOutCopies to the clips of a scenario, and to those of each library.
 Result<void> LeaveOutCopies(ScenarioSetup& setup, const SourceTexts& texts) {
   ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
-  RETURN_IF_ERROR(LeaveOutCopies(setup.clips, how, {setup.file, 0, 0}, setup.refused));
+  LeaveOutCopies(setup.clips, how, {setup.file, 0, 0}, setup.refused);
   for (NamedClips& library : setup.libraries) {
-    RETURN_IF_ERROR(LeaveOutCopies(library.clips, how, {setup.file, 0, 0}, setup.refused));
+    LeaveOutCopies(library.clips, how, {setup.file, 0, 0}, setup.refused);
   }
   return {};
 }

@@ -106,6 +106,7 @@ methods: [{name: hue}]
         (clips / "b.bvh").write_bytes((clips / "a.bvh").read_bytes())
         scenario = self.write("t.yaml", f"scenario: t\nquestion: q?\ntask: tracking\nclips: ['{clips}/*.bvh']\ntrials: 4\n"
                                         "methods: [{name: a, solver: damped-least-squares}]\n")
+        self.assertIn(f"b.bvh: is left out: is a byte copy of '{clips}/a.bvh'", self.ends(0, "run", scenario, "--dry-run").stderr)
         told = self.ends(0, "run", scenario, "-o", self.out)
         self.assertIn(f"b.bvh: was left out: is a byte copy of '{clips}/a.bvh'", told.stderr)
         setup, = json.loads((self.out / "manifest.json").read_text())["scenarios"]
@@ -118,6 +119,11 @@ methods: [{name: hue}]
         setup, = json.loads((self.folder / "whole" / "manifest.json").read_text())["scenarios"]
         self.assertNotIn("refused", setup)
         self.assertEqual(len(setup["loaded_clips"]), 2)
+        # If no clip can be read, the first reason is the cause, not the copy.
+        for name in "abc":
+            (clips / f"{name}.bvh").write_text("no motion")
+        self.assertRegex(self.ends(2, "run", scenario, "--skip-refused", "-o", self.folder / "none").stderr,
+                         "none of 1 clips can be read; the first: .*a.bvh:1")
 
     def test_nobody_listening_does_not_end_a_run(self):
         path = self.write("ik.yaml", IK)
