@@ -31,13 +31,15 @@ glm::dvec3 RodriguesOf(const glm::dmat3& R) {
   return sine > 0 ? 2 * std::atan2(sine, q.w) / sine * axis : glm::dvec3(0);
 }
 
-/// Returns a text in TOML's quotes.
-std::string Quoted(const std::string& text) {
-  const toml::value<std::string> value(text);
-  std::ostringstream quoted;
-  quoted << toml::toml_formatter(value, toml::format_flags::none);
-  return quoted.str();
+/// Returns a value as TOML writes it.
+std::string TextOf(const toml::node& value) {
+  std::ostringstream text;
+  text << toml::toml_formatter(value, toml::format_flags::none);
+  return text.str();
 }
+
+/// Returns a text in TOML's quotes.
+std::string Quoted(const std::string& text) { return TextOf(toml::value<std::string>(text)); }
 
 /// Returns the name of a table: without quotes if TOML allows that.
 std::string KeyOf(const std::string& name) {
@@ -62,6 +64,9 @@ std::string Table(const NamedCamera& named) {
 Place PlaceOf(const toml::source_region& region) {
   return {.file = {}, .line = static_cast<int>(region.begin.line), .column = static_cast<int>(region.begin.column)};
 }
+/// Returns the beginning of a value, for messages.
+std::string Shown(const toml::node& value) { return fmt::format("{:.40}", TextOf(value)); }
+
 Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
 
 /// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
@@ -98,7 +103,7 @@ Result<Values> ValuesOf(const std::string& name, const toml::table& keys,
     if (value == nullptr) return Fail(PlaceOf(keys), "camera {} has no {}", name, key);
     std::vector<double>& numbers = values[key];
     if (!AddNumbers(*value, numbers)) {
-      return Fail(PlaceOf(*value), "camera {}: '{}' must be a list of numbers", name, key);
+      return Fail(PlaceOf(*value), "camera {}: '{}' must be a list of numbers, found {}", name, key, Shown(*value));
     }
     if (count != 0 && numbers.size() != count) {
       return Fail(PlaceOf(*value), "camera {}: {} has {} numbers; allowed: {}", name, key, numbers.size(), count);
@@ -112,7 +117,7 @@ Result<bool> TruthOf(const std::string& name, const toml::table& keys, const cha
   const toml::node* value = keys.get(key);
   if (value == nullptr) return otherwise;
   if (const auto truth = value->value_exact<bool>()) return *truth;
-  return Fail(PlaceOf(*value), "camera {}: '{}' must be true or false", name, key);
+  return Fail(PlaceOf(*value), "camera {}: '{}' must be true or false, found {}", name, key, Shown(*value));
 }
 
 /// Reads the table of a planned camera: its lens has no distortion, and its picture is upright.
@@ -195,7 +200,7 @@ Result<NamedCamera> ReadTable(const CameraTable& table) {
   const toml::node* own = keys->get("name");
   if (own == nullptr) return NamedCamera{name, *camera};
   const auto shown = own->value_exact<std::string>();
-  if (!shown) return Fail(PlaceOf(*own), "camera {}: 'name' must be a text in quotes", name);
+  if (!shown) return Fail(PlaceOf(*own), "camera {}: 'name' must be a text in quotes, found {}", name, Shown(*own));
   return NamedCamera{*shown, *camera};
 }
 

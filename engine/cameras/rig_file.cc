@@ -251,10 +251,11 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
   }
   // A TOML file is from Pose2Sim or a program with the same format.
-  if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
-    ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
+  auto toml = ReadPose2SimCalibration(text);
+  if (toml || text[first] == '[' || text.find("\n[") != std::string_view::npos) {
+    if (!toml) return tl::unexpected(toml.error());
     return RigFile{
-        std::move(cameras),
+        *std::move(toml),
         text.find("[cameras.") != std::string_view::npos ? "Caliscope" : "TOML of Pose2Sim, Anipose or FreeMoCap",
         kYUpOfZUp};
   }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/cameras/opencv_file.h"
@@ -155,6 +156,9 @@ TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
       "[a]\nsize = [640, 480]\nmatrix = [[600, 0, 320], [0, 600, 240], [0, 0, 1]]\ndistortions = [0, 0, 0, 0]\n"
       "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, 0, 4]\n";
   EXPECT_TRUE(ReadRig(toml, "rig"));
+  std::string keys = toml.substr(4, toml.size() - 5);
+  std::ranges::replace(keys, '\n', ',');
+  EXPECT_TRUE(ReadRig("a = {" + keys + "}\n", "rig")) << "a table in one line";
   EXPECT_THAT(testing::Refusal(
                   ReadRig(testing::Replaced(toml, "[0, 1, 0], [0, 0, 1]]\nt", "[0, -1, 0], [0, 0, 1]]\nt"), "rig")),
               HasSubstr(said));
