@@ -31,13 +31,13 @@ int main(int, char** argv) {
   const std::string path(self, static_cast<std::size_t>(size));
   const std::string folder = path.substr(0, path.rfind('/') + 1);
   const std::string beside = folder + "etude_program", installed = folder + ETUDE_MODULES_FROM_PROGRAM "/etude_program";
-  ::execve(beside.c_str(), argv, variables.data());
-  int error = errno;
-  if (error == ENOENT) {
-    ::execve(installed.c_str(), argv, variables.data());
-    error = errno;
+  for (const std::string& program : {beside, installed}) {
+    ::execve(program.c_str(), argv, variables.data());
+    if (errno == ENOENT) continue;
+    std::fprintf(stderr, "etude: cannot start '%s': %s\n", program.c_str(), std::strerror(errno));
+    return 3;
   }
-  std::fprintf(stderr, "etude: cannot start etude_program: %s; it must be '%s' or '%s'\n", std::strerror(error),
-               beside.c_str(), installed.c_str());
+  std::fprintf(stderr, "etude: cannot find etude_program; it must be '%s' or '%s'\n", beside.c_str(),
+               installed.c_str());
   return 3;
 }

@@ -107,7 +107,13 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             alone = subprocess.run([shutil.copy(ETUDE, folder), "--version"], cwd=folder, capture_output=True, text=True)
             self.assertEqual((alone.returncode, alone.stdout), (3, ""))
-            self.assertRegex(alone.stderr, rf"^etude: cannot start etude_program: .*; it must be '{folder}/etude_program' or '.*'\n$")
+            self.assertRegex(alone.stderr, rf"^etude: cannot find etude_program; it must be '{folder}/etude_program' or '.*'\n$")
+            program = pathlib.Path(folder) / "etude_program"
+            program.write_text("not a program")
+            program.chmod(0o755)
+            broken = subprocess.run([pathlib.Path(folder) / "etude", "--version"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual((broken.returncode, broken.stderr),
+                             (3, f"etude: cannot start '{program}': Exec format error\n"))
 
     def test_what_the_loader_has_put_into_place_stays(self):
         self.assertRegex(sections("-l"), r"GNU_RELRO")
