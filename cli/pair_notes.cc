@@ -43,7 +43,8 @@ void DoubtList::Tell() const {
   const std::vector<std::string> lines = kinds_.Lines();
   for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
     fmt::print(stderr, "{}\n", line);
-  if (lines.size() > kMaxLines) fmt::print(stderr, "and {} other doubts; see `etude rows`\n", lines.size() - kMaxLines);
+  if (lines.size() > kMaxLines)
+    fmt::print(stderr, "and {} other kinds of doubts; see `etude rows`\n", lines.size() - kMaxLines);
 }
 
 DoubtList DoubtsOf(const RunData& run) {
@@ -63,7 +64,7 @@ Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder) {
     (is_judged ? notes.judged : notes.not_judged)
         .Add(row.method + under, head, std::string(WithoutDoubts(row.result.reason)));
     notes.doubts.Add(row);
-    if (!is_judged) notes.every_not_judged.push_back(head + ": " + row.result.reason);
+    if (!is_judged) notes.every_not_judged.push_back(fmt::format("{}: {}", head, WithoutDoubts(row.result.reason)));
     return {};
   }));
   return notes;

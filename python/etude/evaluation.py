@@ -82,8 +82,13 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         path.write_bytes(content)
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
-    for doubt in json.loads(printed)["doubts"]:
-        warnings.warn(doubt, DoubtWarning, stacklevel=2)
+    kinds = {}
+    for doubt in json.loads(printed)["doubts"]:  # "METHOD, CLIP: DOUBT", or "CLIP: the truth: DOUBT"
+        whose, _, text = doubt.partition(": ")
+        method = "" if text.startswith("the truth: ") else whose.partition(", ")[0]
+        kinds.setdefault((method, re.sub(r"[\d.]+", "", text)), []).append(doubt)  # but for numbers, one kind
+    for first, *similar in kinds.values():
+        warnings.warn(first + (f" (and {len(similar)} similar)" if similar else ""), DoubtWarning, stacklevel=2)
     if code != 0:
         rows = [json.loads(line) for line in (output / "cells.jsonl").read_text(encoding="utf-8").splitlines()]
         rows.sort(key=lambda row: row["status"] == "skipped")  # skipped cells last: their reasons say least

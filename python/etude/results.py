@@ -23,7 +23,8 @@ def load(folder, *, unsealed=False, program=None):
     if not (folder / "manifest.json").is_file():
         raise EtudeError(f"{folder}: is not a result folder, because there is no manifest.json", 2)
     if not (folder / "summary.json").is_file():
-        raise EtudeError(f"{folder}: the run did not finish; use etude.run(…, resume=True) to continue the run", 3)
+        raise EtudeError(f"{folder}: the run did not finish, or is one shard of a run; continue it with "
+                         "etude.run(…, resume=True), or merge all shards with `etude merge`", 3)
     if not unsealed:
         call("cite", folder, program=program)
     return Run(folder, catalogue.metrics(program), catalogue.joints(program))
