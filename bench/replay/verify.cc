@@ -62,8 +62,9 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
   if (!differences.empty()) {
     verified.differences[0] +=
-        "; the summary differs, or another version of Etude made it: other versions draw other random numbers for "
-        "intervals and p-values (repeat the run to compare)";
+        "; if only intervals and p-values differ, another version of Etude may have drawn other random numbers for "
+        "them "
+        "(repeat the run to compare)";
   }
   return verified;
 }
