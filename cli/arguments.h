@@ -24,9 +24,9 @@ enum class Sealing;
 /// Runs the chosen command; returns the command's exit code.
 using Action = std::function<int()>;
 
-/// Defines the command `wanted` with its options, or every command if there is no such command or if it prints all
-/// commands. When `app` parses a command line, the chosen command is stored in `action`. `command_line` is recorded in
-/// host.json.
+/// Defines the command `wanted` and its options. Defines every command if `wanted` is not the name of a command, or if
+/// this command prints all commands. When `app` parses a command line, the chosen command is stored in `action`.
+/// `command_line` is recorded in host.json.
 void DefineCommands(CLI::App& app, std::string_view wanted, const std::string& command_line, Action& action);
 
 // The functions below add options that several commands share.

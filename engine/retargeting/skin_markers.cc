@@ -273,10 +273,11 @@ std::string MoveToJointCentres(const MarkerSet& set, const std::map<std::string,
   }
   const UsedWands used = set.has_skin_limbs ? FindUsedWands(wands, depths, frames) : UsedWands{};
   const bool is_on_point = set.has_skin_limbs && AreOnElbowPoints(frames, depths);
-  for (const bool is_left : {true, false}) {
-    if (!set.has_skin_limbs) break;
-    RemoveUnmoved(frames, is_left, kNeededForLeg, {kLeftKnee, kLeftAnkle}, depths);
-    RemoveUnmoved(frames, is_left, kNeededForElbow, {kLeftElbow}, depths);
+  if (set.has_skin_limbs) {
+    for (const bool is_left : {true, false}) {
+      RemoveUnmoved(frames, is_left, kNeededForLeg, {kLeftKnee, kLeftAnkle}, depths);
+      RemoveUnmoved(frames, is_left, kNeededForElbow, {kLeftElbow}, depths);
+    }
   }
   for (std::size_t t = 0; t < frames.size() && set.has_skin_limbs; ++t) {
     for (const bool is_left : {true, false}) {

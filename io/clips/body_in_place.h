@@ -33,8 +33,7 @@ struct BodyInPlace {
   std::vector<JointSet> unseen = {};    ///< for each frame: joints that the file does not show (FaultOptions::unseen)
   bool is_of_markers = false;           ///< true if the joints were found from markers on the skin
   std::vector<std::string> notes = {};  ///< findings and corrections (BodyConversion::changes)
-  std::vector<std::string> doubts =
-      {};                               ///< the entries of `notes` that state what looks wrong (BodyConversion::doubts)
+  std::vector<std::string> doubts = {};  ///< the entries of `notes` that state what looks wrong in the file
   bool is_floor_known = true;           ///< MarkerBody::is_floor_known
   std::vector<OtherStretch> others = {};  ///< the other stretches, in order of time; empty: see OpenBodyInPlace
 };

@@ -13,8 +13,9 @@ bool HasMidHips(const SeenPeople& frames);
 /// between the hips or the neck midway between the shoulders, and the face (nose, eyes, ears) compact.
 bool FitsClearly(const SeenPeople& frames);
 
-/// Returns the reason why the people's keypoints seem to be in another order than `layout` (a name of
-/// KeypointLayouts(), or "" if it was chosen by the number of keypoints); "" if there is none. In nearly all people
+/// Returns the reason why the people's keypoints seem to be in another order than `layout`; "" if they do not. `layout`
+/// is a name of KeypointLayouts(), or "" if the layout was chosen by the number of keypoints. The order is doubted if,
+/// in nearly all people,
 /// - the mid-hip is not between the hips (body_25, h36m), a leg is as small as a face (h36m), or joints of body_25b are
 ///   where body_25 has the mid-hip; or
 /// - nose, eyes and ears are farther apart than 0.35 times the farthest landmarks. In COCO's pictures, people who sit,
