@@ -113,8 +113,9 @@ Result<void> AddPeople(std::vector<CocoPerson> people, const std::string& layout
                        PeopleOfFilm& film, const Place& place) {
   for (CocoPerson& person : people) {
     CocoCategory& category = *person.category;
-    // If any value exceeds 1, the values are COCO's flags; otherwise they are scores.
-    for (Keypoint& point : person.points) point.confidence /= category.max_confidence > 1 ? 2 : 1;
+    // If the largest value is from 1 to 2, the values are COCO's flags; otherwise they are scores.
+    const bool are_flags = category.max_confidence > 1 && category.max_confidence <= kMaxFlag;
+    for (Keypoint& point : person.points) point.confidence /= are_flags ? kMaxFlag : 1;
     auto seen = ToPerson(person.points, layout, category.keypoints, place);
     if (!seen) {
       if (category.refused++ == 0) category.error = std::move(seen).error();

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/order_statistics.h"
 #include "io/keypoints/frame_numbers.h"
 #include "io/keypoints/people_json.h"
 
@@ -33,22 +32,13 @@ std::optional<double> TimeOf(const Json& frame) {
   return std::nullopt;
 }
 
-/// Returns the number by which confidences are divided so that they are 0…1. COCO's flags and AlphaPose's scores go up
-/// to 2; others, such as 0…255 or Detectron2's ratios of a heat map, have no upper limit, so a quantile decides.
-double ScaleOf(std::vector<double> confidences) {
-  std::erase_if(confidences, [](double confidence) { return !(confidence > 0); });
-  const double largest = confidences.empty() ? 1 : std::ranges::max(confidences);
-  constexpr double kMaxFlag = 2, kQuantile = 0.75;
-  if (largest <= kMaxFlag) return std::max(1.0, largest);
-  return std::max(1.0, LowerPercentile(std::move(confidences), kQuantile));
-}
-
-/// Reads results: one object per person, whose image_id gives the frame. Confidences above 1 are scaled (ScaleOf).
+/// Reads results: one object per person, whose image_id gives the frame. COCO's flags and AlphaPose's scores go up
+/// to 2.
 Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, const FilmOfKeypoints& of,
                                  const Place& place) {
   // Collect the points of every frame and the confidences.
   std::map<long, std::vector<ListedPerson>> numbered;
-  std::vector<double> confidences;
+  double largest = 0;
   std::size_t boxes = 0;
   for (const Json& one : list) {
     const Json* id = Member(one, "image_id");
@@ -59,13 +49,13 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
       continue;
     }
     ASSIGN_OR_RETURN(ListedPerson listed, PointsOf(one, place));
-    for (const Keypoint& point : listed.points) confidences.push_back(point.confidence);
+    for (const Keypoint& point : listed.points) largest = std::max(largest, point.confidence);
     if (numbered[*number].size() >= kMaxPeople) return Fail(place, "found more than {} people in a frame", kMaxPeople);
     numbered[*number].push_back(std::move(listed));
   }
   if (numbered.empty()) return Fail(place, "none of {} results has a list 'keypoints'", boxes);
-  // Scale the confidences to 0…1 and order the landmarks.
-  const double scale = ScaleOf(std::move(confidences));
+  // Scale flags to 0…1 and order the landmarks.
+  const double scale = largest <= kMaxFlag ? std::max(1.0, largest) : 1;
   std::map<long, std::vector<SeenPerson>> people;
   for (auto& [number, persons] : numbered) {
     for (ListedPerson& listed : persons) {

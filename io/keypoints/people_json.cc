@@ -284,7 +284,7 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
     if (order[i] != Landmark::kNoLandmark && is_seen) {
-      person[order[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
+      person[order[i]] = points[i];
     }
   }
   return person;

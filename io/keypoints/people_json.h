@@ -42,6 +42,8 @@ KeypointNames NamesOfMeta(const Json& json);
 /// Reads a flat list of numbers: x, y, confidence, x, …. A point counts as not seen if any of its numbers is null.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 
+constexpr double kMaxFlag = 2;  ///< COCO's flag of a visible keypoint
+
 /// Makes a person from an estimator's keypoints. The file's names state which keypoint is which landmark. If it states
 /// none, or `layout` is not "", a layout with this number of keypoints states it. A keypoint at exactly (0, 0) in the
 /// file's coordinates was not seen. Fails if none or several layouts have this number of keypoints, if fewer than 12

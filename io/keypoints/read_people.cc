@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "engine/vision/strokes.h"
 #include "io/files/files.h"
 #include "io/files/json.h"
@@ -108,6 +109,32 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layou
   }
   LayByNames(names, of, film);
   return film;
+}
+
+/// Brings the confidences to 0…1. Some estimators give percentages or raw scores without an upper limit, so a quantile
+/// decides. Without this, unsure keypoints would count as certain.
+void ScaleConfidences(PeopleOfFilm& film) {
+  constexpr double kQuantile = 0.75, kMostOfScores = 1.2;  // scores of 0…1 may exceed 1 a little
+  std::vector<double> confidences;
+  const auto for_each = [&](const auto& take) {
+    for (auto& frame : film.frames) {
+      for (SeenPerson& person : frame) {
+        for (Keypoint& keypoint : person.keypoints) take(keypoint.confidence);
+      }
+    }
+  };
+  for_each([&](double confidence) {
+    if (confidence > 0) confidences.push_back(confidence);
+  });
+  if (confidences.empty()) return;
+  const double largest = std::ranges::max(confidences);
+  double scale = LowerPercentile(std::move(confidences), kQuantile);
+  if (scale <= kMostOfScores) scale = 1;
+  for_each([&](double& confidence) { confidence = std::min(confidence / scale, 1.0); });
+  if (scale == 1) return;
+  film.Tell(
+      fmt::format("confidences reach {:.3g}; Etude takes {:.3g}, their third quartile, and all above it as certain",
+                  largest, scale));
 }
 
 /// How the coordinates of a film's keypoints are distributed.
@@ -229,6 +256,7 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     }
   }
   if (!film) return film;
+  ScaleConfidences(*film);
   film->doubt = DoubtOf(path, layout, of, film->frames);
   Denormalise(of, *film);
   return film;

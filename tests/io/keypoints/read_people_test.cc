@@ -395,6 +395,37 @@ TEST_F(ReadPeople, LargeScoresHideNoKeypoints) {
   }
 }
 
+// Percentages, and raw scores of RTMPose. Without scaling, a keypoint of 5 % would count as certain.
+TEST_F(ReadPeople, ScoresAbove1AreScaledInEveryFormat) {
+  const auto points = [](double scale) {
+    std::string list;
+    for (int i = 0; i < 17; ++i)
+      list += fmt::format("{}{}, 20, {}", i == 0 ? "" : ", ", 10 + i, scale * (i == 5 ? 0.05 : 0.9));
+    return list;
+  };
+  for (const double scale : {1.0, 8.0, 100.0}) {
+    const auto open_pose =
+        Write("cam/1.json", R"({"people": [{"pose_keypoints_2d": [)" + points(scale) + "]}]}").parent_path();
+    const auto list = Write("list.json", R"([{"frame": 0, "keypoints": [)" + points(scale) + "]}]");
+    const auto results = Write("results.json", R"([{"image_id": 0, "keypoints": [)" + points(scale) + "]}]");
+    const auto coco = Write("coco.json", R"({"images": [{"id": 1}], "annotations": [{"image_id": 1, "keypoints": [)" +
+                                             points(scale) + "]}]}");
+    for (const auto& path : {open_pose, list, results, coco}) {
+      ASSERT_OK(film, ReadKeypoints(path, ""));
+      const SeenPerson& person = film->frames.at(0).at(0);
+      EXPECT_DOUBLE_EQ(person[Landmark::kLeftHip].confidence, scale == 1 ? 0.9 : 1) << path;
+      EXPECT_NEAR(person[Landmark::kLeftShoulder].confidence, scale == 1 ? 0.05 : 0.05 / 0.9, 1e-12) << path;
+      EXPECT_EQ(film->told,
+                scale == 1
+                    ? ""
+                    : fmt::format("confidences reach {0:.3g}; Etude takes {0:.3g}, their third quartile, and all "
+                                  "above it as certain",
+                                  scale * 0.9))
+          << path;
+    }
+  }
+}
+
 TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
   const auto list = [&](const std::string& key) {
     std::string points;
