@@ -36,6 +36,19 @@ bool IsRotation(const glm::dmat3& R) {
   return off < kTolerance;
 }
 
+/// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
+/// Otherwise returns `R` unchanged.
+glm::dmat3 Orthonormal(const glm::dmat3& R) {
+  const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
+  constexpr double kRounded = 3e-3;  // EasyMocap wrote three decimals
+  for (int i = 0; i < 3; ++i) {
+    if (!(glm::length(off[i]) < kRounded)) return R;
+  }
+  glm::dmat3 near = R;
+  for (int step = 0; step < 3; ++step) near = 0.5 * (near + glm::transpose(glm::inverse(near)));
+  return near;
+}
+
 std::vector<double> CoefficientsOf(const Distortion& d) {
   if (d.is_fisheye) return {d.k1, d.k2, d.k3, d.k4};
   const std::array all = {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6, d.s1, d.s2, d.s3, d.s4, d.tau_x, d.tau_y};
@@ -114,9 +127,10 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
     return Fail({}, "the last two rows of the camera matrix must be (0, fy, cy) and (0, 0, 1)");
   }
-  if (!IsRotation(p.R)) {
+  const glm::dmat3 R = IsRotation(p.R) ? p.R : Orthonormal(p.R);
+  if (!IsRotation(R)) {
     return Fail({}, "R is not a rotation matrix{}",
-                IsRotation(-p.R) ? "; it is a reflection, with the determinant -1; allowed: the determinant 1" : "");
+                IsRotation(-R) ? "; it is a reflection, with the determinant -1; allowed: the determinant 1" : "");
   }
   Camera camera;
   camera.intrinsics = {.width = static_cast<int>(p.width),
@@ -127,8 +141,8 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
                        .cy = K[5] + kOurPixelCentre,
                        .skew = K[1]};
   ASSIGN_OR_RETURN(camera.distortion, DistortionOf(p));
-  camera.R_CW = p.R;
-  camera.p_WC = -(glm::transpose(p.R) * p.T);
+  camera.R_CW = R;
+  camera.p_WC = -(glm::transpose(R) * p.T);
   return camera;
 }
 

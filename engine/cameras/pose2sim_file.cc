@@ -69,19 +69,6 @@ std::string Shown(const toml::node& value) { return fmt::format("{:.40}", TextOf
 
 Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
 
-/// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
-/// Otherwise returns `R` unchanged.
-glm::dmat3 Orthonormal(const glm::dmat3& R) {
-  const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
-  constexpr double kRounded = 1e-3;
-  for (int i = 0; i < 3; ++i) {
-    if (!(glm::length(off[i]) < kRounded)) return R;
-  }
-  glm::dmat3 near = R;
-  for (int step = 0; step < 3; ++step) near = 0.5 * (near + glm::transpose(glm::inverse(near)));
-  return near;
-}
-
 /// Adds the numbers of a value, which is a number or a list of lists of numbers. Returns false if it has anything else.
 bool AddNumbers(const toml::node& value, std::vector<double>& numbers) {
   if (const auto number = value.value<double>()) {
@@ -162,7 +149,7 @@ Result<OpenCvParameters> ReadCalibrated(const std::string& name, const toml::tab
                           .height = values["size"][1],
                           .camera_matrix = values["matrix"],
                           .distortion = values["distortions"],
-                          .R = Orthonormal(*R) * glm::transpose(kYUpOfZUp),
+                          .R = *R * glm::transpose(kYUpOfZUp),
                           .T = {t[0], t[1], t[2]},
                           .is_fisheye = is_fisheye};
 }

@@ -13,6 +13,14 @@ bool IsInPicture(const Intrinsics& in, const glm::dvec2& pixel) {
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x <= in.width && pixel.y <= in.height;
 }
 
+/// Returns true if the principal point is far from the picture's middle, but would be the middle of a picture with the
+/// same shape and another size.
+bool IsMiddleOfAnotherSize(const Intrinsics& in) {
+  constexpr double kFar = 0.12, kSameShape = 0.05;  // shares of the width and the height
+  const double right = in.cx / in.width - 0.5, down = in.cy / in.height - 0.5;
+  return std::abs(right) > kFar && std::abs(right - down) < kSameShape;
+}
+
 /// Returns true if a place in the picture of `one` is also in the picture of `other`. The places lie on the rays of a
 /// grid of pixels, at distances from a tenth to a hundred times the distance between the cameras.
 bool SharesAPlace(const Camera& one, const Camera& other) {
@@ -46,7 +54,17 @@ std::vector<std::string> RigDoubts(std::span<const NamedCamera> cameras) {
   std::vector<std::string> doubts;
   for (const auto& [name, camera] : cameras) {
     const Intrinsics& in = camera.intrinsics;
-    if (!HasPicture(camera) || IsInPicture(in, {in.cx, in.cy})) continue;
+    if (!HasPicture(camera)) continue;
+    if (IsInPicture(in, {in.cx, in.cy})) {
+      if (IsMiddleOfAnotherSize(in)) {
+        doubts.push_back(
+            fmt::format("{}: the principal point ({:.0f}, {:.0f}) is the middle of a picture of {:.0f} x {:.0f} "
+                        "pixels, not of {} x "
+                        "{}; was the camera calibrated with pictures of another size?",
+                        name, in.cx, in.cy, 2 * in.cx, 2 * in.cy, in.width, in.height));
+      }
+      continue;
+    }
     doubts.push_back(
         fmt::format("{}: the principal point ({:.0f}, {:.0f}) is outside the picture of {} x {} pixels; this is right "
                     "only if the picture was cropped",

@@ -1,5 +1,6 @@
 #include "engine/cameras/rig_doubts.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace etude {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
@@ -61,6 +63,26 @@ TEST(RigDoubts, NamesCamerasThatLookAway) {
   // A picture of unknown size is not judged.
   for (NamedCamera& named : cameras) named.camera.intrinsics.width = named.camera.intrinsics.height = 0;
   EXPECT_THAT(RigDoubts(cameras), IsEmpty());
+}
+
+// A camera that was calibrated at 640 x 360 or 1920 x 1080, in a rig whose pictures have 1280 x 720.
+TEST(RigDoubts, NamesAPrincipalPointInTheMiddleOfAnotherPicture) {
+  for (const double scale : {0.5, 2 / 3.0, 1.5}) {
+    std::vector<NamedCamera> cameras = Around(std::vector{0.0, 30.0});
+    Intrinsics& in = cameras[0].camera.intrinsics;
+    for (double* value : {&in.fx, &in.fy, &in.cx, &in.cy}) *value *= scale;
+    EXPECT_THAT(RigDoubts(cameras), ElementsAre(StartsWith("cam1: the principal point (")));
+    EXPECT_THAT(RigDoubts(cameras)[0],
+                HasSubstr(fmt::format("the middle of a picture of {:.0f} x {:.0f} pixels, not of 1280 x 720; was",
+                                      1280 * scale, 720 * scale)));
+    // The control: an axis that is a little off, or off in one direction only.
+    in = kInside;
+    in.cx += 100;
+    in.cy -= 60;
+    EXPECT_THAT(RigDoubts(cameras), IsEmpty());
+    in.cx += 200;
+    EXPECT_THAT(RigDoubts(cameras), IsEmpty());
+  }
 }
 
 TEST(RigDoubts, NamesAPrincipalPointOutsideOfThePicture) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/cameras/opencv_file.h"
@@ -229,6 +230,24 @@ TEST(RigPair, ReadsEasyMocapsFiles) {
       EXPECT_THAT(
           ToString(ReadRigPair(testing::Replaced(inside, "K_b:", "L_b:"), outside, "intri.yml", "extri.yml").error()),
           HasSubstr("no K_b"));
+    }
+  }
+}
+
+// EasyMocap writes six decimals, and wrote three; Qualisys writes six.
+TEST(RigFile, RotationMatricesMayBeRounded) {
+  for (const auto& [decimals, most_px] : {std::pair(3, 1.5), {4, 0.15}, {5, 0.015}, {6, 0.0015}}) {
+    for (int turn = 0; turn < 20; ++turn) {
+      Camera camera = TwoCameras().front().camera;
+      camera.R_CW =
+          camera.R_CW * glm::dmat3(glm::mat3_cast(glm::angleAxis(0.3 * turn, glm::normalize(glm::dvec3(1, 2, turn)))));
+      const double scale = std::pow(10.0, decimals);
+      OpenCvParameters rounded = ParametersOf(camera);
+      for (int i = 0; i < 3; ++i) rounded.R[i] = glm::round(rounded.R[i] * scale) / scale;
+      ASSERT_OK(read, CameraOf(rounded));
+      EXPECT_LT(glm::length((read->R_CW - camera.R_CW)[2]) * camera.intrinsics.fx, most_px);
+      const glm::dmat3 off = read->R_CW * glm::transpose(read->R_CW) - glm::dmat3(1);
+      for (int i = 0; i < 3; ++i) EXPECT_LT(glm::length(off[i]), 1e-6);
     }
   }
 }
