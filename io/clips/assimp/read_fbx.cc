@@ -24,14 +24,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the axis of the file that points up (0 = X, 1 = Y, 2 = Z), and a sign, which is −1 if this axis points down.
-std::pair<int, int> UpOf(const aiScene& scene) {
-  std::int32_t axis = 1, sign = 1;
-  if (scene.mMetaData != nullptr) {
-    scene.mMetaData->Get("UpAxis", axis);
-    scene.mMetaData->Get("UpAxisSign", sign);
+/// Returns the rotation from the file's axes to ours, X to the right (CoordAxis), Y up and Z to the front. If the
+/// stated axes are left-handed or not three, only the up axis counts, as in other programs.
+aiMatrix4x4 TurnOf(const aiScene& scene) {
+  const auto number = [&](const char* name, std::int32_t otherwise) {
+    if (scene.mMetaData != nullptr) scene.mMetaData->Get(name, otherwise);
+    return otherwise;
+  };
+  const auto axis_of = [&](const std::string& name, std::int32_t usual) {
+    aiVector3D axis;
+    const std::int32_t index = number((name + "Axis").c_str(), usual);
+    if (index >= 0 && index <= 2) {
+      axis[static_cast<unsigned>(index)] = number((name + "AxisSign").c_str(), 1) < 0 ? -1.0F : 1.0F;
+    }
+    return axis;
+  };
+  const aiVector3D right = axis_of("Coord", 0), up = axis_of("Up", 1), front = axis_of("Front", 2);
+  aiMatrix4x4 turn;
+  if ((right ^ up) * front > 0) {
+    turn = aiMatrix4x4(right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, front.x, front.y, front.z, 0, 0, 0, 0, 1);
+  } else if (up.x != 0) {
+    aiMatrix4x4::RotationZ(up.x * static_cast<ai_real>(std::numbers::pi / 2), turn);
+  } else if (up.z != 0) {
+    aiMatrix4x4::RotationX(-up.z * static_cast<ai_real>(std::numbers::pi / 2), turn);
   }
-  return {axis, sign};
+  return turn;
 }
 
 void Append(std::string& bytes, std::uint32_t number) {
@@ -255,13 +272,7 @@ bool GlbOfFbxByAssimp(std::string_view bytes, std::string& said, FbxKeyFacts& fa
       said = std::string("the FBX file is damaged: ") + importer.GetErrorString();
       return false;
     }
-    // Turn a scene with X or Z up to Y up.
-    if (const auto [axis, sign] = UpOf(*scene); axis == 0 || axis == 2) {
-      const auto angle = static_cast<ai_real>(sign * std::numbers::pi / 2);
-      aiMatrix4x4 turn;
-      axis == 0 ? aiMatrix4x4::RotationZ(angle, turn) : aiMatrix4x4::RotationX(-angle, turn);
-      scene->mRootNode->mTransformation = turn * scene->mRootNode->mTransformation;
-    }
+    scene->mRootNode->mTransformation = TurnOf(*scene) * scene->mRootNode->mTransformation;
     const FbxOwnKeys own = ReadOwnKeys(bytes, facts);
     said = MotionGlb(*scene, own, facts).Bytes();
     return true;

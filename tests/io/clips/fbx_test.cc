@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ namespace {
 
 /// Returns an FBX text with hips and an arm, which is their child and has a pre-rotation. The arm's translation,
 /// rotation and scale have `keys` keys each within one second, in which the arm moves from x = 10 to x = 20.
-std::string ArmWithKeys(int keys) {
+/// `settings` are properties of the file.
+std::string ArmWithKeys(int keys, const std::string& settings = "") {
   std::string objects, links;
   const auto model = [&](int id, const char* name, const char* more) {
     objects += fmt::format("Model: {}, \"Model::{}\", \"LimbNode\" {{\nVersion: 232\nProperties70: {{\n{}}}\n}}\n", id,
@@ -51,9 +53,9 @@ std::string ArmWithKeys(int keys) {
       links += fmt::format("C: \"OP\",{},{}, \"d|{}\"\n", id++, node, axis);
     }
   }
-  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\nGlobalSettings: {\nVersion: 1000\n}\n"
-         "Objects: {\n" +
-         objects + "}\nConnections: {\n" + links + "}\n";
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXVersion: 7400\n}\nGlobalSettings: {\nVersion: "
+         "1000\nProperties70: {\n" +
+         settings + "}\n}\nObjects: {\n" + objects + "}\nConnections: {\n" + links + "}\n";
 }
 
 TEST(Fbx, JointsWithPivotsKeepTheirMotionWhateverTheNumberOfKeys) {
@@ -66,6 +68,38 @@ TEST(Fbx, JointsWithPivotsKeepTheirMotionWhateverTheNumberOfKeys) {
     const auto arm = static_cast<std::size_t>(clip.skeleton.Find("Arm"));
     const glm::dvec3 way = clip.frames.back()[arm].translation - clip.frames.front()[arm].translation;
     EXPECT_NEAR(glm::length(way), 0.1, 1e-3) << keys << " keys: 10 cm";
+  }
+}
+
+// The axes that a file calls right, up and front (the FBX SDK's coordinate, up and front axis) become X, Y and Z. In
+// the last frame, the arm is at (20, 90, 0) cm.
+TEST(Fbx, AllThreeAxesOfAFileCount) {
+  const auto arm_m = [](const std::array<int, 6>& axes) {
+    std::string settings;
+    constexpr std::array kNames = {"UpAxis", "UpAxisSign", "FrontAxis", "FrontAxisSign", "CoordAxis", "CoordAxisSign"};
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      settings += fmt::format("P: \"{}\", \"int\", \"Integer\", \"\",{}\n", kNames[i], axes[i]);
+    }
+    const auto motion = ReadFbx(ArmWithKeys(31, settings), "a.fbx");
+    EXPECT_TRUE(motion);
+    const auto content = ReadGltf(motion->glb, "a.fbx", nullptr);
+    const Clip& clip = content->clips.at(0);
+    std::vector<GlobalTransform> globals;
+    ComputeGlobals(clip.skeleton, clip.frames.back(), globals);
+    return globals.at(static_cast<std::size_t>(clip.skeleton.Find("Arm"))).position;
+  };
+  using V = glm::dvec3;
+  for (const auto& [axes, place] : {std::pair(std::array{1, 1, 2, 1, 0, 1}, V(.2, .9, 0)),  // Maya
+                                    {{2, 1, 1, -1, 0, 1}, V(.2, 0, -.9)},                   // 3ds Max
+                                    {{2, 1, 1, 1, 0, -1}, V(-.2, 0, .9)},
+                                    {{2, 1, 0, 1, 1, 1}, V(.9, 0, .2)},
+                                    {{0, 1, 1, 1, 2, 1}, V(0, .2, .9)},
+                                    {{1, -1, 2, -1, 0, 1}, V(.2, -.9, 0)},
+                                    {{1, 1, 2, -1, 0, -1}, V(-.2, .9, 0)},
+                                    // Left-handed, or not three axes: only the up axis counts.
+                                    {{1, 1, 2, -1, 0, 1}, V(.2, .9, 0)},
+                                    {{2, 1, 2, 1, 0, 1}, V(.2, 0, -.9)}}) {
+    EXPECT_LT(glm::distance(arm_m(axes), place), 1e-5) << axes[0] << axes[2] << axes[4];
   }
 }
 
