@@ -76,9 +76,12 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
     ASSERT_OK(guessed, convert(stature_m, false));
     EXPECT_NEAR(Stature(guessed->motion.poses[0]), stature_m == 1.74 ? stature_m : 1.70, 1e-9);
   }
-  // Files that state metres, but hold hundreds of metres, centimetres, inches, or feet.
-  for (const auto& [units, unit] :
-       {std::pair(0.01, "unknown"), {100.0, "centimetre"}, {1 / 0.0254, "inch"}, {1 / 0.3048, "foot"}}) {
+  // Files that state metres, but hold millimetres, metres that were taken as centimetres, centimetres, inches, or feet.
+  for (const auto& [units, unit] : {std::pair(1e-4, "unknown"),
+                                    {0.01, "metre, stated as centimetre"},
+                                    {100.0, "centimetre"},
+                                    {1 / 0.0254, "inch"},
+                                    {1 / 0.3048, "foot"}}) {
     ASSERT_OK(body, convert(units * adult_m, true));
     EXPECT_EQ(body->unit, unit);
     EXPECT_NEAR(Stature(body->motion.poses[0]), *unit == 'u' ? 1.70 : adult_m, 1e-9);
