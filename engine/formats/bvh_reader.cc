@@ -206,7 +206,8 @@ std::string DescribeRoughTime(const Token& printed, double seconds, double frame
   if (point == std::string_view::npos || printed.text.find_first_of("eE") != std::string_view::npos) return "";
   const double rate = RateOf(seconds);
   double digit = 1;  // the value of 1 in the last place
-  for (std::size_t i = point + 1; i < printed.text.size(); ++i) digit /= 10;
+  // Zeros at the end are no digits: "%f" prints 0.033 as 0.033000.
+  for (std::size_t i = point + 1; i < printed.text.find_last_not_of('0') + 1; ++i) digit /= 10;
   double likely = 0;
   for (const double whole : kUsualRates_hz) {
     for (const double usual : {whole, whole * kTelevision}) {
