@@ -41,6 +41,9 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 /// Returns true for a frame rate that a Kinect's recordings have, 5 to 130 Hz, with a margin for jitter.
 inline bool IsKinectRate(double rate_hz) { return rate_hz > 4.75 && rate_hz < 133; }
 
+/// Fails if a joint is farther from the sensor than a person can be. The positions are in metres.
+Result<void> CheckReach(const RecordedFrame& frame, const std::string& file);
+
 /// Returns a remark if the times of a Kinect's recording give a rate that no Kinect has (IsKinectRate); else "".
 std::string RateDoubt(const StreamRecording& recording);
 

@@ -20,13 +20,17 @@ bool IsEmptyOrComment(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
 }
 
-/// Returns true if more rows are needed to determine the unit of a CSV's clock. If rows seem to be more than a second
-/// apart, the clock may count milliseconds or a smaller unit; FindTimeScale needs five steps, so six rows, to decide.
-bool MayCountLessThanSeconds(const StreamRecording& recording) {
-  constexpr std::size_t kRows = 6;
-  const std::size_t rows = recording.frames.size();
-  return recording.records_times && rows > 1 && rows < kRows &&
-         recording.frames.back().time_s - recording.frames.front().time_s > static_cast<double>(rows - 1);
+/// Returns true if more rows are needed to understand a CSV's clock. If rows seem to be more than a second apart, the
+/// clock may count milliseconds or a smaller unit; FindTimeScale needs five steps, so six rows, to decide. If all rows
+/// are the same, the sender may repeat the frames of a slower sensor.
+bool IsClockOpen(const JointCsv& csv) {
+  constexpr std::size_t kRows = 6, kRepeatedRows = 30;
+  const std::size_t rows = csv.times_s.size();
+  if (!csv.columns.time || rows < 2) return false;
+  const double span_s = csv.times_s.back() - csv.times_s.front();
+  const bool is_repeated = std::ranges::count(csv.frames, csv.frames.front()) == std::ssize(csv.frames);
+  if (span_s == 0 && is_repeated) return rows < kRepeatedRows;
+  return rows < kRows && span_s > static_cast<double>(rows - 1);
 }
 
 bool ShowsTrunk(const RecordedFrame& frame) {
@@ -53,7 +57,6 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
       frame.error().place.line = line_;
       return LeaveOut(std::move(frame).error());
     }
-    damaged_ = 0;
     frame->line = line_;
     return Add(*std::move(frame), stream);
   }
@@ -85,8 +88,8 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   }
   ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, first_lines_, name_, reading_));
   if (*format == StreamFormat::kEtudeCsv) {
-    if (!at_end && MayCountLessThanSeconds(recording)) return {};
     ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(first_lines_, name_));
+    if (!at_end && !reading_.rate_hz && IsClockOpen(csv)) return {};
     columns_ = csv.columns;
   }
   if (options_.up && !recording.is_level) return Fail({name_}, "--up is {}", kWhereUpIsAllowed);
@@ -156,6 +159,8 @@ double LiveStream::SteadyTime(double time_s) {
 /// Adds a frame unless the previous frame has the same time, or a time that is a little later.
 Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stream) {
   constexpr double kMaxBack_s = 1;
+  if (auto reach = CheckReach(frame, name_); !reach) return LeaveOut(std::move(reach).error());
+  damaged_ = 0;
   frame.time_s = SteadyTime(frame.time_s);
   const double back_s = frames_ > 0 ? last_s_ - frame.time_s : -1;
   ++frames_;

@@ -104,20 +104,6 @@ std::vector<double> TimesOnGrid(const RowGrid& grid, std::size_t rows) {
   return times.size() == rows ? times : std::vector<double>{};
 }
 
-/// Fails if a joint is farther from the sensor than a person can be.
-Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
-  constexpr double kMaxDistance_m = 100;
-  for (const RecordedFrame& frame : recording.frames) {
-    for (const Role role : AllRoles()) {
-      const auto& place = frame.places[Index(role)];
-      if (!place || glm::length(*place) <= kMaxDistance_m) continue;
-      return Fail({file, frame.line}, "{} is {:.3g} m away from the origin; allowed: at most {} m", RoleName(role),
-                  glm::length(*place), kMaxDistance_m);
-    }
-  }
-  return {};
-}
-
 /// Checks that times do not decrease. If several frames have the same time, keeps only the first of these frames, as
 /// LiveStream does, which cannot wait for the next frame.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
@@ -219,6 +205,17 @@ std::string RateDoubt(const StreamRecording& recording) {
       *rate);
 }
 
+Result<void> CheckReach(const RecordedFrame& frame, const std::string& file) {
+  constexpr double kMaxDistance_m = 100;
+  for (const Role role : AllRoles()) {
+    const auto& place = frame.places[Index(role)];
+    if (!place || glm::length(*place) <= kMaxDistance_m) continue;
+    return Fail({file, frame.line}, "{} is {:.3g} m away from the origin; allowed: at most {} m", RoleName(role),
+                glm::length(*place), kMaxDistance_m);
+  }
+  return {};
+}
+
 void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere) {
   const auto is_elsewhere = [](const auto& place) { return place && !IsNoPlace(*place); };
   const bool shows_body = std::ranges::any_of(frame.places, is_elsewhere);
@@ -273,7 +270,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   RETURN_IF_ERROR(OrderTimes(recording, file));
   RETURN_IF_ERROR(CheckRate(recording, file));
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));
-  RETURN_IF_ERROR(CheckReach(recording, file));
+  for (const RecordedFrame& frame : recording.frames) RETURN_IF_ERROR(CheckReach(frame, file));
   // Add doubts.
   BodyJumps jumps;
   for (const RecordedFrame& frame : recording.frames) jumps.Take(frame);

@@ -18,6 +18,7 @@ namespace etude {
 namespace {
 
 using testing::AzureText;
+using ::testing::HasSubstr;
 using testing::KinectV1Text;
 using testing::WavingMotion;
 using testing::WithClock;
@@ -85,6 +86,26 @@ TEST(LiveStream, OfEqualTimesTheFirstCountsAsInARecording) {
   EXPECT_THAT(recording->remarks,
               ::testing::Contains("1 frames have the same time as another frame; Etude uses the first frame of each "
                                   "time"));
+}
+
+// A sender at 60 Hz repeats the frames of a sensor at 30 Hz.
+TEST(LiveStream, RepeatedFramesDoNotHideTheClock) {
+  const std::string once = WriteJointCsv(WavingMotion(90));
+  std::string twice;
+  std::istringstream text(once);
+  for (std::string line; std::getline(text, line);) twice += line + "\n" + (twice.empty() ? "" : line + "\n");
+  const Heard heard = Listen(twice);
+  EXPECT_EQ(heard.complaint, "");
+  EXPECT_EQ(heard.frames.size(), Listen(once).frames.size());
+}
+
+// Millimetres under the headings of metres are refused, as in a file.
+TEST(LiveStream, AStreamInAnotherUnitIsRefused) {
+  BodyMotion motion = WavingMotion(90);
+  for (BodyPose& pose : motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint *= 1000;
+  }
+  EXPECT_THAT(Listen(WriteJointCsv(motion)).complaint, HasSubstr("m away from the origin; allowed: at most 100 m"));
 }
 
 TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {
