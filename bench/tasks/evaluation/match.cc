@@ -376,6 +376,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   for (const double frame : judged.of_answer) {
     is_covered.push_back(frame >= 0 && frame <= static_cast<double>(answer.FrameCount()) - 1);
   }
+  matched.truth_begin_s = truth.start_s.value_or(0);
   matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
   matched.doubts = DoubtsOnPair(truth, answer, common, matched, start_s);
   return matched;

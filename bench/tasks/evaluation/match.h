@@ -26,6 +26,7 @@ struct MatchedMotions {
   std::optional<EvaluatedPair> own = {};
   std::optional<ShownMotions> shown = {};  ///< the motions to show, if `pair` does not have the truth's times
   double own_start_s = 0;            ///< the time of the first frame of OwnFrames, in seconds after the truth's first
+  double truth_begin_s = 0;          ///< the time of the truth's first frame by its file's clock; 0 without a clock
   bool is_interpolated = false;      ///< true: the truth has no frames at these times, so it was interpolated
   bool is_even = true;               ///< true: the frames of `pair` follow each other at equal times
   std::vector<std::string> joints;   ///< the judged joints

@@ -1,5 +1,7 @@
 #include "bench/tasks/evaluation/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -263,6 +265,11 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   if (side.music_beats_s) {
     const double end_s = static_cast<double>(matched.pair.found.FrameCount()) / matched.pair.rate_hz;
     result.reason += DoubtOnBeats(*side.music_beats_s, end_s, matched.pair.rate_hz);
+    if (matched.truth_begin_s != 0) {
+      result.reason +=
+          fmt::format(", the music's beats are counted from the truth's first frame, which is at {:.6g} s of its clock",
+                      matched.truth_begin_s);
+    }
   }
   result.digests = {{"truth", DigestOf(matched.pair.truth)}, {"answer", DigestOf(matched.pair.found)}};
   const PairFits fits(matched.pair);

@@ -218,6 +218,18 @@ TEST(MusicBeats, InAnotherUnitThanSecondsAreDoubted) {
   }
 }
 
+// Beats that were written by a clock that began before the motion would silently give another value.
+TEST(MusicBeats, AreSaidToCountFromTheTruthsFirstFrame) {
+  RawMotion truth = Gliding(30, 5);
+  const EvaluationSideData side{.music_beats_s = std::vector{0.1, 0.6}};
+  const auto reason = [&] { return JudgeMotion(*Match(truth, truth, "roles", Lag::kNone), side).reason; };
+  EXPECT_THAT(reason(), ::testing::Not(HasSubstr("the music's beats")));
+  truth.start_s = 60;
+  EXPECT_THAT(reason(), HasSubstr("counted from the truth's first frame, which is at 60 s of its clock"));
+  EXPECT_THAT(JudgeMotion(*Match(truth, truth, "roles", Lag::kNone), {}).reason,
+              ::testing::Not(HasSubstr("the music's beats")));
+}
+
 TEST(Match, FewJointsAreRefusedIfTheFilesNameManyMore) {
   const RawMotion truth = Gliding(30, 5);
   const auto only = [&](std::size_t with_role, std::size_t without) {
