@@ -114,7 +114,7 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layou
 /// Brings the confidences to 0…1. Some estimators give percentages or raw scores without an upper limit, so a quantile
 /// decides. Without this, unsure keypoints would count as certain.
 void ScaleConfidences(PeopleOfFilm& film) {
-  constexpr double kQuantile = 0.75, kMostOfScores = 1.2;  // scores of 0…1 may exceed 1 a little
+  constexpr double kQuantile = 0.75, kMaxOfScores = 1.2;  // scores of 0…1 may exceed 1 a little
   std::vector<double> confidences;
   const auto for_each = [&](const auto& take) {
     for (auto& frame : film.frames) {
@@ -129,7 +129,7 @@ void ScaleConfidences(PeopleOfFilm& film) {
   if (confidences.empty()) return;
   const double largest = std::ranges::max(confidences);
   double scale = LowerPercentile(std::move(confidences), kQuantile);
-  if (scale <= kMostOfScores) scale = 1;
+  if (scale <= kMaxOfScores) scale = 1;
   for_each([&](double& confidence) { confidence = std::min(confidence / scale, 1.0); });
   if (scale == 1) return;
   film.Tell(
