@@ -22,8 +22,8 @@ class Coach(EtudeCase):
         cls.etude("clip", "convert", "builtin:warm_up", cls.expert)
         # People who follow the coach are 0.3 s late.
         head, first, *rows = cls.expert.read_text().splitlines()
-        poses = [row.split(",", 1)[1] for row in [first] * 10 + rows]
-        cls.expert.write_text("\n".join([head] + [f"{i / 30:.6f},{pose}" for i, pose in enumerate(poses)]) + "\n")
+        poses = [row.split(",", 2)[2] for row in [first] * 10 + rows]
+        cls.expert.write_text("\n".join([head] + [f"{i},{i / 30:.6f},{pose}" for i, pose in enumerate(poses)]) + "\n")
 
     def coach(self, *arguments, text=None):
         result = self.ends(0, "coach", "warm_up", *arguments, text=text)
