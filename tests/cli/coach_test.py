@@ -65,7 +65,7 @@ class Coach(EtudeCase):
     @heavy
     def test_who_stands_there_is_corrected(self):
         rows = self.take.read_text().splitlines()
-        rows = [rows[0]] + [f"{i / 30:.6f}," + rows[1].split(",", 1)[1] for i in range(900)]
+        rows = [rows[0]] + [f"{i},{i / 30:.6f}," + rows[1].split(",", 2)[2] for i in range(900)]
         _, frames = self.coach("--now", "--stream", "-", "--brief", text="\n".join(rows) + "\n")
         events = self.events(frames)
         wrong = [event for event in events if event["event"] == "wrong"]
