@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/names.h"
 #include "engine/motion/motion_faults.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/marker_sets.h"
@@ -81,8 +82,8 @@ std::string DescribeFlatBody(std::span<const JointPositions> frames) {
          "`etude capture --keypoints`";
 }
 
-std::vector<std::string> DescribeFreezes(std::span<const JointPositions> frames, double rate_hz) {
-  return SentencesOf(FaultKind::kFreezes, FaultsIn(frames, rate_hz));
+std::string DescribeFreezes(std::span<const JointPositions> frames, double rate_hz) {
+  return Join(SentencesOf(FaultKind::kFreezes, FaultsIn(frames, rate_hz)), "; ");
 }
 
 std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz) {
@@ -92,7 +93,8 @@ std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, do
   // Choose torn joints, frozen frames and bent knees, which errors of single positions do not explain.
   const std::vector<MotionFault> faults = FaultsIn(frames, rate_hz);
   std::ranges::move(SentencesOf(FaultKind::kTorn, faults), std::back_inserter(doubts));
-  std::ranges::move(SentencesOf(FaultKind::kFreezes, faults), std::back_inserter(doubts));
+  if (auto said = Join(SentencesOf(FaultKind::kFreezes, faults), "; "); !said.empty())
+    doubts.push_back(std::move(said));
   std::array<std::string, 2> bends;
   for (const MotionFault& fault : faults) {
     if (fault.kind != FaultKind::kBends) continue;

@@ -16,9 +16,9 @@ namespace etude {
 /// joints (kNeededJoints) are searched only for exchanged joints.
 std::vector<std::string> DoubtsOnBody(std::span<const JointPositions> frames, double rate_hz);
 
-/// Returns sentences about times in which the body freezes (FaultKind::kFreezes), as where lost frames were filled with
-/// the last pose. The arguments are those of DoubtsOnBody.
-std::vector<std::string> DescribeFreezes(std::span<const JointPositions> frames, double rate_hz);
+/// Describes the times in which the body freezes (FaultKind::kFreezes), as where lost frames were filled with the last
+/// pose; "" if there are none. The arguments are those of DoubtsOnBody.
+std::string DescribeFreezes(std::span<const JointPositions> frames, double rate_hz);
 
 /// Returns a doubt if nearly all frames show a body without depth: along one axis, the joints differ by less than 1 %
 /// of the body's size, as pixels of a picture do. Even a person who stands still is a twentieth as deep as tall.

@@ -46,10 +46,10 @@ Recording RecordingOf(const MatchedMotions& matched) {
 /// UnderstandClip already refuses those whose sides are exchanged, and the joints of animators' figures may move apart.
 void AddDoubts(RawMotion& motion) {
   const auto frames = RolesIn(motion);
-  const bool is_skeleton = !motion.rotations.empty();
-  for (const std::string& doubt :
-       is_skeleton ? DescribeFreezes(frames, motion.rate_hz) : DoubtsOnBody(frames, motion.rate_hz)) {
-    motion.Doubt(doubt);
+  if (!motion.rotations.empty()) {
+    motion.Doubt(DescribeFreezes(frames, motion.rate_hz));
+  } else {
+    for (const std::string& doubt : DoubtsOnBody(frames, motion.rate_hz)) motion.Doubt(doubt);
   }
 }
 

@@ -34,25 +34,27 @@ std::string DoubtOnRoots(const EvaluatedPair& pair) {
       of_found < of_truth ? "answer" : "truth", of_found < of_truth ? "truth" : "answer");
 }
 
-/// Returns a doubt if the answer fits far better with other axes; otherwise "".
-std::string DoubtOnAxes(const EvaluatedPair& pair) {
+/// Returns a doubt if the answer fits far better with other axes; otherwise "". If `has_doubts`, one of the files has
+/// doubts, which usually explain another up axis.
+std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
   constexpr double kNearAxis = 0.99, kFarBetter = 0.1, kMin_mm = 50;
   const auto fit = Fit(MomentsOf(pair.found.positions, pair.truth.positions), false);
   if (!fit) return "";
   // Name, for each axis of the answer, the axis of the truth along which it lies.
   std::string axes;
   int named = 0;
-  bool is_changed = false;
+  bool is_changed = false, is_up_changed = true;
   for (int axis = 0; axis < 3; ++axis) {
     for (int to = 0; to < 3; ++to) {
       const double along = fit->rotation[axis][to];
       if (std::abs(along) < kNearAxis) continue;
       axes += fmt::format("{}{}{}", axes.empty() ? "" : ", ", along < 0 ? "−" : "", "XYZ"[to]);
       ++named;
+      if (axis == 1 && to == 1 && along > 0) is_up_changed = false;
       is_changed = is_changed || to != axis || along < 0;
     }
   }
-  if (!is_changed || named < 3) return "";
+  if (!is_changed || named < 3 || (is_up_changed && has_doubts)) return "";
   const auto mean_mm = [&](const Similarity& change) {
     FrameFits fits;
     fits.fits = {change};
@@ -133,6 +135,17 @@ class DistanceComparison {
   std::vector<std::array<double, kMaxPairs>> true_;
 };
 
+/// Returns the positions of the judged joints.
+PointTracks ColumnsOf(const RawMotion& motion, const std::vector<CommonJoint>& common, int CommonJoint::*column) {
+  PointTracks tracks{common.size(), {}};
+  for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
+    for (const CommonJoint& joint : common) {
+      tracks.positions.push_back(motion.At(f, static_cast<std::size_t>(joint.*column)));
+    }
+  }
+  return tracks;
+}
+
 /// Returns a doubt if the answer fits far better at other times; otherwise "".
 std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const std::vector<CommonJoint>& common,
                          double start_s) {
@@ -145,15 +158,25 @@ std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const 
   };
   const auto paired = shifted(0);
   if (!(paired.rms_m > kMin_m) || paired.count == 0) return "";
-  // Find the best shift in whole frames of the truth. A shift at the end of the range is not believed.
+  // Find the best shift in whole frames of the truth. A shift at the end of the range is not believed. In a motion that
+  // repeats, many shifts fit nearly as well; the smallest is taken.
+  constexpr double kNearlyAsWell = 1.2;
   const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth.rate_hz));
-  double best_m = kFarBetter * paired.rms_m;
-  int best = 0;
+  std::vector<double> rms_m;
   for (int shift = -reach; shift <= reach; ++shift) {
     const auto there = shifted(shift / truth.rate_hz);
-    if (there.count < kMinCompared * paired.count || there.rms_m >= best_m) continue;
-    best_m = there.rms_m;
-    best = shift;
+    const bool is_enough = there.count >= kMinCompared * paired.count;
+    rms_m.push_back(is_enough ? there.rms_m : std::numeric_limits<double>::infinity());
+  }
+  const double least_m = std::ranges::min(rms_m);
+  int best = 0;
+  double best_m = paired.rms_m;
+  for (int size = reach; size > 0 && least_m < kFarBetter * paired.rms_m; --size) {
+    for (const int shift : {-size, size}) {
+      if (rms_m[static_cast<std::size_t>(reach + shift)] > kNearlyAsWell * least_m) continue;
+      best = shift;
+      best_m = rms_m[static_cast<std::size_t>(reach + shift)];
+    }
   }
   // Spread the answer over the whole truth, as if it had another rate.
   const double truth_steps = static_cast<double>(truth.FrameCount()) - 1,
@@ -161,20 +184,29 @@ std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const 
                rate_hz = answer_steps / truth_steps * truth.rate_hz;
   if (std::abs(rate_hz / answer.rate_hz - 1) > kOtherLength) {
     const auto spread = comparison.Compare([&](double f) { return f * answer_steps / truth_steps; });
-    if (spread.rms_m < kFarBetter * (best == 0 ? paired.rms_m : best_m)) {
+    const auto still = comparison.Compare([](double) { return 0.0; });  // how much the truth itself varies
+    if (spread.rms_m < kFarBetter * std::min(still.rms_m, best_m)) {
       return fmt::format(
           "spread over the whole truth, the answer's frames fit far better: is its rate about {:.0f} Hz instead of "
           "{:.4g}?",
           rate_hz, answer.rate_hz);
     }
   }
-  // A shift below one frame of the slower file may only come from taking the nearest frames.
-  const double frames = std::abs(best) / truth.rate_hz * std::min(truth.rate_hz, answer.rate_hz);
-  if (!(frames >= 1) || std::abs(best) == reach) return "";
+  if (best == 0 || std::abs(best) == reach) return "";
+  // A part without motion fits a body that stands still, so FindTimeShift must find a shift, too. A shift below one
+  // frame of the slower file may only come from taking the nearest frames.
+  const auto found = FindTimeShift(ColumnsOf(truth, common, &CommonJoint::truth), truth.rate_hz,
+                                   ColumnsOf(answer, common, &CommonJoint::answer), answer.rate_hz);
+  if (!found) return "";
+  constexpr double kSame = 2, kLeast = 0.99;  // frames
+  const double frame_s = 1 / std::min(truth.rate_hz, answer.rate_hz), coarse_s = best / truth.rate_hz;
+  const bool is_same = std::abs(found->shift_s - start_s - coarse_s) <= kSame * frame_s;
+  const double shift_s = is_same ? found->shift_s - start_s : coarse_s;
+  if (std::abs(shift_s) < kLeast * frame_s) return "";
   return fmt::format(
       "the answer seems to be {:.3g} s {}: with this shift, distances between joints differ by {:.3g} mm "
       "instead of {:.3g} (--lag find measures and removes it)",
-      std::abs(best) / truth.rate_hz, best > 0 ? "late" : "early", kToMm * best_m, kToMm * paired.rms_m);
+      std::abs(shift_s), shift_s > 0 ? "late" : "early", kToMm * best_m, kToMm * paired.rms_m);
 }
 
 }  // namespace
@@ -182,9 +214,8 @@ std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const 
 std::vector<std::string> DoubtsOnPair(const RawMotion& truth, const RawMotion& answer,
                                       const std::vector<CommonJoint>& common, const MatchedMotions& matched,
                                       double start_s) {
-  std::vector<std::string> doubts{DoubtOnRoots(matched.pair)};
-  // A doubt about one of the files, such as its up axis, usually explains other axes.
-  if (truth.doubts.empty() && answer.doubts.empty()) doubts.push_back(DoubtOnAxes(matched.pair));
+  const bool has_doubts = !truth.doubts.empty() || !answer.doubts.empty();
+  std::vector<std::string> doubts{DoubtOnRoots(matched.pair), DoubtOnAxes(matched.pair, has_doubts)};
   if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, common, start_s));
   std::erase(doubts, "");
   return doubts;

@@ -265,7 +265,7 @@ CellResult JudgeMotion(const MatchedMotions& matched, const EvaluationSideData& 
   if (side.music_beats_s) {
     const double end_s = static_cast<double>(matched.pair.found.FrameCount()) / matched.pair.rate_hz;
     result.reason += DoubtOnBeats(*side.music_beats_s, end_s, matched.pair.rate_hz);
-    if (matched.truth_begin_s != 0) {
+    if (std::abs(matched.truth_begin_s) * matched.pair.rate_hz >= 0.5) {
       result.reason +=
           fmt::format(", the music's beats are counted from the truth's first frame, which is at {:.6g} s of its clock",
                       matched.truth_begin_s);

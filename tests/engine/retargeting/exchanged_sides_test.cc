@@ -141,8 +141,8 @@ TEST(DoubtsOnBody, AreNoneOfBodiesAndNameJointsThatAreNoBodys) {
   // Lost frames that were filled with the last pose are a freeze; frames without joints are not.
   std::vector<JointPositions> frozen = Dance("boxing");
   std::fill(frozen.begin() + 15, frozen.begin() + 51, frozen[15]);
-  EXPECT_THAT(DescribeFreezes(frozen, kRate_hz), ElementsAre(HasSubstr("from 0.50 to 1.67 s")));
-  EXPECT_THAT(DoubtsOnBody(frozen, kRate_hz), testing::IsSupersetOf(DescribeFreezes(frozen, kRate_hz)));
+  EXPECT_THAT(DescribeFreezes(frozen, kRate_hz), HasSubstr("from 0.50 to 1.67 s"));
+  EXPECT_THAT(DoubtsOnBody(frozen, kRate_hz), Contains(DescribeFreezes(frozen, kRate_hz)));
   std::fill(frozen.begin() + 15, frozen.begin() + 51, JointPositions{});
   EXPECT_THAT(DescribeFreezes(frozen, kRate_hz), IsEmpty());
   // Frames without points give no message, nor does a recording without frames.

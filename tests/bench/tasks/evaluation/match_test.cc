@@ -505,6 +505,20 @@ TEST(DoubtsOnPair, AreNoneOfAnswersThatAreOnlyWrong) {
   // A body that stands still fits at every time.
   EXPECT_THAT(Doubts(truth, Gliding(30, 150)), IsEmpty());
   EXPECT_THAT(Doubts(Gliding(30, 150), WithErrors(Gliding(30, 150), 0.1)), IsEmpty());
+  // A kick that the answer misses, after standing still: the part before it fits at every time.
+  RawMotion kick = Gliding(30, 120);
+  const auto foot = static_cast<std::size_t>(kick.roles[Index(Role::kLeftFoot)]);
+  for (std::size_t f = 0; f < 40; ++f) {
+    kick.positions[(80 + f) * kick.joints.size() + foot] += glm::dvec3(0, 0.02, 0.03) * static_cast<double>(f);
+  }
+  EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 120), 0.005)), IsEmpty());
+  EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 50), 0.005)), IsEmpty());
+  std::ranges::reverse(kick.positions);
+  for (std::size_t f = 0; f < 120; ++f) {
+    const auto frame = kick.positions.begin() + static_cast<std::ptrdiff_t>(f * kick.joints.size());
+    std::reverse(frame, frame + static_cast<std::ptrdiff_t>(kick.joints.size()));
+  }
+  EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 50), 0.005)), IsEmpty());
   // The motion in reverse, and one whose limbs sway at other times.
   RawMotion other = truth;
   std::ranges::reverse(other.positions);
@@ -544,6 +558,13 @@ TEST(DoubtsOnPair, NameTheAxesThatFit) {
               ElementsAre(HasSubstr("seem to point along the truth's −Z, Y, X: with these axes")));
   const auto round = Changed(truth, [](const glm::dvec3& p) { return glm::dvec3(3 - p.x, p.y, -p.z); });
   EXPECT_THAT(Doubts(truth, round), ElementsAre(HasSubstr("along the truth's −X, Y, −Z")));
+  RawMotion doubted = truth;
+  doubted.Doubt("freezes");
+  EXPECT_THAT(Doubts(doubted, round), ElementsAre(HasSubstr("along the truth's −X, Y, −Z")));
+  // A doubt about the up axis of a file is not said twice.
+  const auto lying = Changed(truth, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.z, p.y); });
+  EXPECT_THAT(Doubts(truth, lying), ElementsAre(HasSubstr("along the truth's X, −Z, Y")));
+  EXPECT_THAT(Doubts(doubted, lying), IsEmpty());
 }
 
 TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
@@ -553,6 +574,21 @@ TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
               ElementsAre(HasSubstr("the answer seems to be 0.2 s early")));
   EXPECT_THAT(Doubts(truth, Swaying(30, 150, 0.5), Lag::kFind), IsEmpty()) << "the lag was removed";
   EXPECT_THAT(Doubts(Swaying(120, 600, 0), Swaying(30, 150, 0.012)), IsEmpty()) << "less than a frame";
+}
+
+TEST(DoubtsOnPair, OfAMotionThatRepeatsNameTheSmallestShift) {
+  const auto stepping = [](double late_s) {
+    RawMotion motion = Gliding(30, 240);
+    for (std::size_t f = 0; f < 240; ++f) {
+      const double phase = 2 * 3.14159265358979 * (static_cast<double>(f) / 30 - late_s);  // a step a second
+      for (std::size_t j = 0; j < motion.joints.size(); ++j) {
+        motion.positions[f * motion.joints.size() + j] += 0.1 * glm::dvec3(0, std::sin(phase + 1.0 * j), 0);
+      }
+    }
+    return motion;
+  };
+  EXPECT_THAT(Doubts(stepping(0), WithErrors(stepping(0.1), 0.005)),
+              ElementsAre(AllOf(HasSubstr("the answer seems to be 0.1"), HasSubstr(" s late"))));
 }
 
 TEST(DoubtsOnPair, NameTheRateAtWhichTheAnswerSpansTheTruth) {
