@@ -277,6 +277,7 @@ JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& 
   const BodyMotion motion = WithoutShiver(WholeMotion(real));
   const Camera sensor = SensorOf(real, motion, options.view);
   JointRecording simulated = RecordingOf(SenseSkeleton(motion, sensor, {}, options, world), sensor.p_WC);
+  simulated.late_s = real.recording.late_s;  // match.truth has the poses of these times
   for (std::size_t t = 0; t < simulated.frames.size(); ++t) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       if (!real.match.truth[t][j]) simulated.frames[t][j].reset();

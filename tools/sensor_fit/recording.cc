@@ -121,35 +121,39 @@ Result<void> CheckBones(const std::vector<RolePositions>& frames, const std::str
               RoleName(*ParentOf(end)), RoleName(end), longest, kMinLongest_m, kMaxBone_m);
 }
 
-/// Gives each row of a CSV with uneven times the nearest even time. Of several rows for one time, the nearest is kept.
-/// Returns how much later than its even time each frame's row is, seconds; nothing if no frame lies between two rows.
+/// Gives each row of a CSV with uneven times the nearest even time that no earlier row has. Returns how much later than
+/// its even time each frame's row is, seconds; nothing if no frame lies between two rows. Leaves out rows for which
+/// this would be over one and a half frames, and all but the last row of a time; the remark says how many.
 Result<std::vector<double>> EvenTimes(JointCsv& csv, const std::string& file) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(csv.times_s, csv.lines, std::nullopt, kRoleCount, file));
   const auto is_between = [](const GridFrame& frame) { return !frame.is_hole && frame.part > 0; };
   if (!grid || std::ranges::none_of(grid->frames, is_between)) return std::vector<double>{};
   const double start_s = csv.times_s[grid->frames.front().row];
-  std::vector<double> late_s(grid->frames.size() + 1);  // the last row may be nearest to the time after the grid's end
-  std::vector<std::optional<std::size_t>> rows(late_s.size());
+  std::vector<std::pair<std::size_t, double>> kept;  // rows, and their frames
   for (std::size_t row = 0; row < csv.times_s.size(); ++row) {
-    const double place = (csv.times_s[row] - start_s) * grid->rate_hz, frame = std::round(place);
-    if (!(frame >= 0) || frame >= static_cast<double>(rows.size())) continue;
-    const auto k = static_cast<std::size_t>(frame);
-    const double late = (place - frame) / grid->rate_hz;
-    if (rows[k] && std::abs(late_s[k]) <= std::abs(late)) continue;
-    rows[k] = row;
-    late_s[k] = late;
+    constexpr double kMaxMove = 1.5;  // frames
+    const double place = (csv.times_s[row] - start_s) * grid->rate_hz;
+    const double frame = std::max(std::round(place), kept.empty() ? 0 : kept.back().second + 1);
+    const bool is_repeated = row + 1 < csv.times_s.size() && csv.times_s[row + 1] == csv.times_s[row];
+    if (!is_repeated && std::abs(frame - place) <= kMaxMove) kept.emplace_back(row, frame);
   }
   JointCsv even = csv;
   even.times_s.clear();
   even.numbers.clear();
   even.lines.clear();
   even.frames.clear();
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (!rows[k]) continue;
-    even.times_s.push_back(start_s + static_cast<double>(k) / grid->rate_hz);
-    if (!csv.numbers.empty()) even.numbers.push_back(csv.numbers[*rows[k]]);
-    even.lines.push_back(csv.lines[*rows[k]]);
-    even.frames.push_back(csv.frames[*rows[k]]);
+  std::vector<double> late_s;
+  for (const auto& [row, frame] : kept) {
+    even.times_s.push_back(start_s + frame / grid->rate_hz);
+    late_s.resize(static_cast<std::size_t>(frame) + 1);
+    late_s.back() = csv.times_s[row] - even.times_s.back();
+    if (!csv.numbers.empty()) even.numbers.push_back(csv.numbers[row]);
+    even.lines.push_back(csv.lines[row]);
+    even.frames.push_back(csv.frames[row]);
+  }
+  if (const std::size_t lost = csv.times_s.size() - kept.size(); lost > 0) {
+    even.remark += fmt::format("{}{} rows are too near to other rows in time; Etude does not use them",
+                               even.remark.empty() ? "" : "; ", lost);
   }
   csv = std::move(even);
   return late_s;

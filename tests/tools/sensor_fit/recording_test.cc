@@ -100,6 +100,21 @@ TEST(ReadJointRecording, KeepsTheRowsOfUnevenTimesAndTheirTimes) {
   EXPECT_LT(match->alignment.rms_m, 0.5 * matched_evenly->alignment.rms_m);
 }
 
+TEST(ReadJointRecording, NoRowOfAJitteringClockIsLost) {
+  // Neighbouring times differ by up to 80 % of a frame, so often two rows are nearest to one frame.
+  const auto late_s = [](std::size_t row) { return 0.0133 * std::sin(2.2 * static_cast<double>(row)); };
+  const std::string text = DanceAt(late_s);
+  ASSERT_OK(rows, ReadJointCsv(text, "jitter.csv"));
+  ASSERT_OK(read, ReadJointRecording(text, "jitter.csv", {}));
+  EXPECT_EQ(SeenFrames(*read), rows->frames.size());
+  for (std::size_t row = 0, k = 0; row < rows->frames.size() && k < read->frames.size(); ++k) {
+    if (!read->frames[k][0]) continue;
+    EXPECT_EQ(read->frames[k], rows->frames[row]);
+    EXPECT_NEAR(read->TimeOf(k) - read->TimeOf(0), rows->times_s[row] - rows->times_s[0], 1e-6);
+    ++row;
+  }
+}
+
 TEST(ReadJointRecording, SaysWhyTimesAreNotUsed) {
   const std::string jump = DanceAt([](std::size_t row) { return row < 100 ? 0.0 : 9000.0; });
   EXPECT_FALSE(ReadJointRecording(jump, "jump.csv", {}));
