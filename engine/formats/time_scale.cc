@@ -74,10 +74,13 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
   constexpr double kMaxStart_s = 1e6;
   constexpr std::size_t kMinSteps = 5;  // without a stated rate
   TimeScale scale;
-  // Choose the unit by the stated rate, otherwise by the median step.
+  // Choose the unit by the stated rate, otherwise by the median step. Without a stated rate, rows that are sent twice
+  // have no step; with one, times may be rounded to whole seconds.
   std::vector<double> steps;
   for (std::size_t i = 1; i < times.size(); ++i) {
-    if (const double step = times[i] - times[i - 1]; !std::isnan(step)) steps.push_back(step);
+    if (const double step = times[i] - times[i - 1]; !std::isnan(step) && (step != 0 || told.rate_hz)) {
+      steps.push_back(step);
+    }
   }
   const std::size_t count = steps.size();
   const double step = count == 0 ? 0 : Median(std::move(steps));

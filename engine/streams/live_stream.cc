@@ -21,16 +21,17 @@ bool IsEmptyOrComment(std::string_view line) {
 }
 
 /// Returns true if more rows are needed to understand a CSV's clock. If rows seem to be more than a second apart, the
-/// clock may count milliseconds or a smaller unit; FindTimeScale needs five steps, so six rows, to decide. If all rows
-/// are the same, the sender may repeat the frames of a slower sensor.
+/// clock may count milliseconds or a smaller unit; FindTimeScale needs five steps to decide. If all rows are the same,
+/// the sender may repeat the frames of a slower sensor.
 bool IsClockOpen(const JointCsv& csv) {
-  constexpr std::size_t kRows = 6, kRepeatedRows = 30;
+  constexpr std::size_t kSteps = 5, kRepeatedRows = 30;
   const std::size_t rows = csv.times_s.size();
   if (!csv.columns.time || rows < 2) return false;
-  const double span_s = csv.times_s.back() - csv.times_s.front();
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < rows; ++i) steps += csv.times_s[i] != csv.times_s[i - 1] ? 1 : 0;
   const bool is_repeated = std::ranges::count(csv.frames, csv.frames.front()) == std::ssize(csv.frames);
-  if (span_s == 0 && is_repeated) return rows < kRepeatedRows;
-  return rows < kRows && span_s > static_cast<double>(rows - 1);
+  if (steps == 0 && is_repeated) return rows < kRepeatedRows;
+  return steps < kSteps && csv.times_s.back() - csv.times_s.front() > static_cast<double>(steps);
 }
 
 bool ShowsTrunk(const RecordedFrame& frame) {
@@ -129,7 +130,7 @@ Result<void> LiveStream::LeaveOut(Error error) {
   if (++damaged_ > kMaxDamaged) return tl::unexpected(std::move(error));
   if (!std::exchange(has_damage_, true)) {
     remarks_.push_back(
-        fmt::format("line {}: {}; Etude leaves out this row and later damaged rows", line_, error.message));
+        fmt::format("line {}: {}; Etude leaves out this row and later damaged rows", error.place.line, error.message));
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -77,7 +78,8 @@ TEST(LiveStream, OfEqualTimesTheFirstCountsAsInARecording) {
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   // Repeat the time of row 20 with the joints of row 40.
   const auto after_time = [](const std::string& line) { return line.find(',', line.find(',') + 1); };
-  lines.insert(lines.begin() + 21, lines[20].substr(0, after_time(lines[20])) + lines[40].substr(after_time(lines[40])));
+  lines.insert(lines.begin() + 21,
+               lines[20].substr(0, after_time(lines[20])) + lines[40].substr(after_time(lines[40])));
   std::string twice;
   for (const std::string& line : lines) twice += line + "\n";
   ExpectAsRecorded(twice);
@@ -97,6 +99,19 @@ TEST(LiveStream, RepeatedFramesDoNotHideTheClock) {
   const Heard heard = Listen(twice);
   EXPECT_EQ(heard.complaint, "");
   EXPECT_EQ(heard.frames.size(), Listen(once).frames.size());
+  // So it is if the clock counts milliseconds, live and in a file.
+  std::string counted;
+  std::istringstream rows(twice);
+  for (std::string line; std::getline(rows, line);) {
+    const std::size_t time = line.find(',') + 1, end = line.find(',', time);
+    if (!counted.empty()) {
+      line = line.substr(0, time) + std::to_string(std::lround(1000 * std::stod(line.substr(time)))) + line.substr(end);
+    }
+    counted += line + "\n";
+  }
+  EXPECT_EQ(Listen(counted).frames.size(), heard.frames.size());
+  ASSERT_OK(recording, ReadStreamRecording(counted, "s"));
+  EXPECT_NEAR(recording->frames.back().time_s - recording->frames.front().time_s, 89 / 30.0, 0.03) << "1 %";
 }
 
 // Millimetres under the headings of metres are refused, as in a file.
@@ -106,6 +121,14 @@ TEST(LiveStream, AStreamInAnotherUnitIsRefused) {
     for (glm::dvec3& joint : pose.joints) joint *= 1000;
   }
   EXPECT_THAT(Listen(WriteJointCsv(motion)).complaint, HasSubstr("m away from the origin; allowed: at most 100 m"));
+  // The first row is too far away; its line is named, although more lines were read before the start.
+  motion = WavingMotion(90);
+  for (glm::dvec3& joint : motion.poses[0].joints) joint.x += 500;
+  LiveStream live("-", {}, {});
+  std::vector<SensedFrame> frames;
+  std::istringstream text(WriteJointCsv(motion));
+  for (std::string line; std::getline(text, line);) ASSERT_TRUE(live.Take(line, frames));
+  EXPECT_THAT(live.TakeRemarks(), ::testing::Contains(::testing::StartsWith("line 2: ")));
 }
 
 TEST(LiveStream, TakesTheClocksTextsAndCommasOfTables) {
