@@ -140,13 +140,12 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   return poses;
 }
 
-bool IsHuman(double stature, const Unit& unit) {
-  return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
-}
-
 /// Returns the unit in which `stature` is a human's, or null if there is no such unit.
 const Unit* UnitOf(double stature) {
-  const auto* const found = std::ranges::find_if(kUnits, [&](const Unit& unit) { return IsHuman(stature, unit); });
+  const auto is_human = [&](const Unit& unit) {
+    return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
+  };
+  const auto* const found = std::ranges::find_if(kUnits, is_human);
   return found == kUnits.end() ? nullptr : found;
 }
 
@@ -164,10 +163,10 @@ void UseMetres(double stature, BodyConversion& done, std::vector<std::string>& r
     return;
   }
   // Some FBX files state centimetres, although their numbers are metres.
-  constexpr Unit kStatedAsCentimetre{"metre, stated as centimetre", 100};
-  if (done.unit == "unknown" && IsHuman(stature, kStatedAsCentimetre)) {
-    done.unit = kStatedAsCentimetre.name;
-    done.metres_per_unit = kStatedAsCentimetre.metres;
+  constexpr double kPerCentimetre = 100;
+  if (done.unit == "unknown" && kPerCentimetre * stature >= kMinStated && kPerCentimetre * stature <= kMaxStated) {
+    done.unit = "metre, stated as centimetre";
+    done.metres_per_unit = kPerCentimetre;
   }
   remarks.push_back(fmt::format(
       "Etude does not use the unit that the file or the file format states, because the body would be {:.3g} m tall",

@@ -72,6 +72,9 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
     EXPECT_EQ(body->unit, "metre") << stature_m;
     EXPECT_NEAR(Stature(body->motion.poses[0]), stature_m, 1e-9);
     EXPECT_THAT(body->Note(), Not(HasSubstr("states")));
+    ASSERT_OK(small, convert(0.01 * stature_m, true));
+    EXPECT_EQ(small->unit, "metre, stated as centimetre") << stature_m;
+    EXPECT_NEAR(Stature(small->motion.poses[0]), stature_m, 1e-9);
     // The control: without a statement, only an adult's stature tells the unit.
     ASSERT_OK(guessed, convert(stature_m, false));
     EXPECT_NEAR(Stature(guessed->motion.poses[0]), stature_m == 1.74 ? stature_m : 1.70, 1e-9);
