@@ -106,11 +106,11 @@ class OrderedHelp : public CLI::Formatter {
     std::string text;
     if (option->get_type_size() != 0) {
       if (!option->get_type_name().empty()) text += " " + get_label(option->get_type_name());
-      // A default that the description states in words is not shown as a number, too.
+      // A default that the description states in words is not shown as a number, too, nor is an empty list.
       const std::string value = option->get_default_str();
       const bool is_stated =
           option->get_required() || option->get_description().find("(default: ") != std::string::npos;
-      if (!value.empty() && value != "[]" && !is_stated) text += "=" + value;
+      if (!value.empty() && value != "[]" && value != "{}" && !is_stated) text += "=" + value;
       if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
         text += " ...";
       } else if (option->get_expected_min() > 1) {
