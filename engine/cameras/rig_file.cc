@@ -252,7 +252,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
   }
   // A TOML file is from Pose2Sim or a program with the same format.
   auto toml = ReadPose2SimCalibration(text);
-  if (toml || text[first] == '[' || text.find("\n[") != std::string_view::npos) {
+  if (toml || text[first] == '[' || text.find("\n[") != std::string_view::npos ||
+      text.find("= {") != std::string_view::npos) {
     if (!toml) return tl::unexpected(toml.error());
     return RigFile{
         *std::move(toml),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -72,6 +73,7 @@ struct CocoCategory {
   std::string name;
   KeypointNames keypoints;
   double max_confidence = 0;
+  bool are_whole = true;  ///< true: all confidences are whole numbers
   std::size_t read = 0;
   std::size_t refused = 0;
   Error error;  ///< why the first of `refused` was refused
@@ -113,8 +115,8 @@ Result<void> AddPeople(std::vector<CocoPerson> people, const std::string& layout
                        PeopleOfFilm& film, const Place& place) {
   for (CocoPerson& person : people) {
     CocoCategory& category = *person.category;
-    // If the largest value is from 1 to 2, the values are COCO's flags; otherwise they are scores.
-    const bool are_flags = category.max_confidence > 1 && category.max_confidence <= kMaxFlag;
+    // Whole numbers up to 2 are COCO's flags; otherwise the values are scores.
+    const bool are_flags = category.max_confidence == kMaxFlag && category.are_whole;
     for (Keypoint& point : person.points) point.confidence /= are_flags ? kMaxFlag : 1;
     auto seen = ToPerson(person.points, layout, category.keypoints, place);
     if (!seen) {
@@ -165,7 +167,10 @@ Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const
     }
     ASSIGN_OR_RETURN(auto points, Triples(Member(annotation, "keypoints"), place));
     CocoCategory& category = CategoryOf(annotation, only, categories);
-    for (const Keypoint& point : points) category.max_confidence = std::max(category.max_confidence, point.confidence);
+    for (const Keypoint& point : points) {
+      category.max_confidence = std::max(category.max_confidence, point.confidence);
+      category.are_whole = category.are_whole && point.confidence == std::floor(point.confidence);
+    }
     people.push_back({frame->second, &category, std::move(points)});
   }
   film.frames.resize(listed.frames.size());
