@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "engine/base/angles.h"
