@@ -67,11 +67,13 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
     text += fmt::format("- {}\n", EscapeMarkdown(SuccessSentence(success)));
   }
   for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
-    text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
-                        EscapeMarkdown(reason.method), EscapeMarkdown(reason.Words()));
+    text += fmt::format("  - {}\n", EscapeMarkdown(DescribeCount(reason)));
   }
   const std::string rest = LeftOutWords(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
+  for (const ReasonCount& doubt : std::span(findings.doubts).first(std::min(findings.doubts.size(), kMaxListed))) {
+    text += fmt::format("- {}\n", EscapeMarkdown(DescribeCount(doubt)));
+  }
   return text + PosePairsMarkdown(run, scenario) + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) +
          PaperAMarkdown(scenario) + PaperBMarkdown(run, scenario);
 }

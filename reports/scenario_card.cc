@@ -102,8 +102,8 @@ std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, con
   return "";
 }
 
-/// Returns a collapsed section: how many cells ended in each status, which goals the methods reached, and why cells
-/// failed. The section's title, which is always visible, counts the cells that are not ok.
+/// Returns a collapsed section: how many cells ended in each status, which goals the methods reached, why cells failed,
+/// and doubts about files. The section's title, which is always visible, counts the cells that are not ok or doubtful.
 std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
   int others = 0;
   for (const ReasonCount& reason : findings.reasons) others += reason.cells;
@@ -124,9 +124,17 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
     }
     html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
   }
-  const std::string title = others == 0
-                                ? fmt::format("{} ok", Plural(findings.cells, "cell"))
-                                : fmt::format("Not ok: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
+  if (!findings.doubts.empty()) {
+    html += "<ul class=\"reasons\">";
+    for (const ReasonCount& doubt : std::span(findings.doubts).first(std::min(findings.doubts.size(), kMaxListed))) {
+      html += fmt::format("<li>{}</li>", EscapeMarkup(DescribeCount(doubt)));
+    }
+    html += "</ul>" + LeftOutHtml(findings.doubts.size(), kMaxListed, "doubts", "cells.jsonl");
+  }
+  std::string title = others == 0
+                          ? fmt::format("{} ok", Plural(findings.cells, "cell"))
+                          : fmt::format("Not ok: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
+  if (findings.doubtful > 0) title += fmt::format(", {} doubtful", FormatCount(findings.doubtful));
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 

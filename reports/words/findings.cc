@@ -227,6 +227,11 @@ std::vector<std::string> TableMetrics(const ScenarioSummary& scenario) {
   return metrics;
 }
 
+std::string DescribeCount(const ReasonCount& reason) {
+  const std::string_view what = reason.status == Status::kOk ? "doubtful" : StatusName(reason.status);
+  return fmt::format("{} × {} in {}: {}", FormatCount(reason.cells), what, reason.method, reason.Words());
+}
+
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
   ScenarioFindings findings;
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();
@@ -263,7 +268,11 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     if (row.scenario != scenario.name) return;
     ++findings.cells;
     ++statuses[row.result.status];
-    if (row.result.status != Status::kOk) reasons[{row.result.status, row.method}].Add(row.result.reason);
+    const bool is_ok = row.result.status == Status::kOk;
+    if (!is_ok) reasons[{row.result.status, row.method}].Add(row.result.reason);
+    const auto doubts = is_ok ? DoubtsIn(row.result.reason) : std::vector<std::string>();
+    for (const std::string& doubt : doubts) reasons[{Status::kOk, row.method}].Add(doubt);
+    findings.doubtful += doubts.empty() ? 0 : 1;
     successes.Add(row);
     times.Add(run, row, place);
   });
@@ -273,10 +282,13 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   // List the reasons, the most frequent first.
   for (const auto& [key, counts] : reasons) {
     for (CountedReason& one : counts.MostFrequentFirst()) {
-      findings.reasons.push_back({std::move(one), key.first, key.second});
+      auto& list = key.first == Status::kOk ? findings.doubts : findings.reasons;
+      list.push_back({std::move(one), key.first, key.second});
     }
   }
-  std::ranges::stable_sort(findings.reasons, std::ranges::greater{}, &ReasonCount::cells);
+  for (auto* list : {&findings.reasons, &findings.doubts}) {
+    std::ranges::stable_sort(*list, std::ranges::greater{}, &ReasonCount::cells);
+  }
   return findings;
 }
 

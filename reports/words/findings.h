@@ -88,7 +88,11 @@ struct ScenarioFindings {
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells in each status that occurs, in the order of Status
   std::vector<SuccessFinding> successes;         ///< one finding per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< reasons of all cells that are not ok, the most frequent first
+  std::vector<ReasonCount> doubts;  ///< doubts about the files of cells that are ok (DoubtsIn), the most frequent first
+  int doubtful = 0;                 ///< number of cells that are ok and have doubts
 };
+/// Returns a line about a reason or a doubt: how many cells have it, of which method.
+std::string DescribeCount(const ReasonCount& reason);
 /// Returns true if the strongest other method is not the baseline. Otherwise, a comparison with the strongest other
 /// method adds no information.
 bool HasOtherRival(const ScenarioFindings& findings);

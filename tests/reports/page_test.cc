@@ -81,7 +81,9 @@ TEST(Page, ShowsRealTakesBesideSimulatedOnes) {
 }
 
 TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
-  const RunData run = ExampleRun();
+  RunData run = ExampleRun();
+  std::ranges::find(run.rows, Status::kOk, [](const Row& row) { return row.result.status; })->result.reason +=
+      DoubtfulPart("the answer: ", {"freezes <2 s>"});
   const std::string page = WritePage(run, {});
   EXPECT_THAT(page, HasSubstr(EscapeMarkup(FindingsOf(run).sentence)));
   int checked = 0;
@@ -89,6 +91,11 @@ TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
     EXPECT_THAT(page, HasSubstr(EscapeMarkup(scenario.question)));
     const ScenarioFindings findings = FindingsOf(run, scenario);
     EXPECT_THAT(page, HasSubstr(EscapeMarkup(findings.answer.sentence)));
+    for (const ReasonCount& doubt : findings.doubts) {
+      EXPECT_THAT(page, HasSubstr("<li>" + EscapeMarkup(DescribeCount(doubt)) + "</li>"));
+      EXPECT_THAT(page, HasSubstr(", 1 doubtful"));
+      ++checked;
+    }
     for (const ReasonCount& reason : findings.reasons) {
       EXPECT_THAT(page, HasSubstr(EscapeMarkup(reason.reason)));
       ++checked;
@@ -97,7 +104,7 @@ TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
       EXPECT_THAT(page, HasSubstr(EscapeMarkup(expectation.text)));
     }
   }
-  EXPECT_GE(checked, 3);
+  EXPECT_GE(checked, 4);
 }
 
 TEST(Page, AnswersBeforeAnythingElseAndFoldsTheRest) {

@@ -146,6 +146,20 @@ TEST(Findings, GroupReasonsThatDifferInNumbersOrFilesAlone) {
   EXPECT_EQ(count_of("for example: t/a.bvh:1:1: no motion"), 2);
 }
 
+TEST(Findings, TellTheDoubtsAboutCellsThatAreOk) {
+  RunData run = ExampleRun();
+  const auto ok = std::ranges::find_if(run.rows, [&](const Row& row) {
+    return row.scenario == run.scenarios[0].name && row.result.status == Status::kOk;
+  });
+  ASSERT_NE(ok, run.rows.end());
+  EXPECT_TRUE(FindingsOf(run, run.scenarios[0]).doubts.empty());
+  ok->result.reason += DoubtfulPart("the answer: ", {"freezes for 2 s", "lies along Z"});
+  const ScenarioFindings findings = FindingsOf(run, run.scenarios[0]);
+  EXPECT_EQ(findings.doubtful, 1);
+  ASSERT_EQ(findings.doubts.size(), 2u);
+  EXPECT_EQ(DescribeCount(findings.doubts[0]), "1 × doubtful in " + ok->method + ": the answer: freezes for 2 s");
+}
+
 TEST(Findings, OfTheRunCountExpectationsAndCells) {
   const RunFindings findings = FindingsOf(ExampleRun());
   EXPECT_EQ(findings.met, 3);
