@@ -37,6 +37,23 @@ std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& ans
   return common;
 }
 
+PointTracks JointColumns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
+  const auto is_whole = [&] {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j] != static_cast<int>(j)) return false;
+    }
+    return joints.size() == motion.joints.size();
+  };
+  const auto begin = motion.positions.begin();
+  if (is_whole()) return {joints.size(), {begin, begin + static_cast<std::ptrdiff_t>(joints.size() * frames)}};
+  PointTracks tracks{joints.size(), std::vector<glm::dvec3>(joints.size() * frames)};
+  glm::dvec3* out = tracks.positions.data();
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (const int joint : joints) *out++ = motion.At(f, static_cast<std::size_t>(joint));
+  }
+  return tracks;
+}
+
 std::string SomeOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   const std::size_t count = std::min(names.size(), kMost);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/metrics/evaluation.h"
 #include "engine/base/result.h"
 #include "engine/motion/raw_motion.h"
 
@@ -21,6 +22,9 @@ struct CommonJoint {
 /// that lacks the joint.
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<CommonJoint>& lacking);
+
+/// Returns the positions of these joints in the first `frames` frames.
+PointTracks JointColumns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames);
 
 /// Returns the joints of equal names in both motions that are not among the `judged` joints.
 std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& answer,

@@ -15,24 +15,6 @@
 namespace etude {
 namespace {
 
-/// Returns the positions of these joints in the first `frames` frames.
-PointTracks Columns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
-  const auto is_whole = [&] {
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j] != static_cast<int>(j)) return false;
-    }
-    return joints.size() == motion.joints.size();
-  };
-  const auto begin = motion.positions.begin();
-  if (is_whole()) return {joints.size(), {begin, begin + static_cast<std::ptrdiff_t>(joints.size() * frames)}};
-  PointTracks tracks{joints.size(), std::vector<glm::dvec3>(joints.size() * frames)};
-  glm::dvec3* out = tracks.positions.data();
-  for (std::size_t f = 0; f < frames; ++f) {
-    for (const int joint : joints) *out++ = motion.At(f, static_cast<std::size_t>(joint));
-  }
-  return tracks;
-}
-
 /// Returns the rotations of these joints in the first `frames` frames; none if the motion has no rotations.
 std::vector<glm::dquat> TurnsOf(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames) {
   std::vector<glm::dquat> turns;
@@ -47,7 +29,7 @@ PointTracks RoleColumns(const RawMotion& motion, std::initializer_list<Role> rol
   std::vector<int> joints;
   for (const Role role : roles) joints.push_back(motion.roles[Index(role)]);
   const bool has_all = std::ranges::none_of(joints, [](int joint) { return joint < 0; });
-  return has_all ? Columns(motion, joints, frames) : PointTracks{};
+  return has_all ? JointColumns(motion, joints, frames) : PointTracks{};
 }
 
 /// Finds the knees and elbows for which all three joints (above, middle, below) are among the judged joints.
@@ -272,7 +254,7 @@ const RawMotion& At(const RawMotion& motion, const std::vector<double>& frames, 
 /// Stores in `pair` everything that is known of the answer at its frames `found`.
 void TakeAnswer(const RawMotion& found, const std::vector<int>& joints, EvaluatedPair& pair) {
   const std::size_t frames = found.FrameCount();
-  pair.found = Columns(found, joints, frames);
+  pair.found = JointColumns(found, joints, frames);
   pair.found_turns = TurnsOf(found, joints, frames);
   pair.found_root = RoleColumns(found, {Role::kHipCentre}, frames).positions;
   pair.feet = RoleColumns(found, {Role::kLeftAnkle, Role::kLeftFoot, Role::kRightAnkle, Role::kRightFoot}, frames);
@@ -307,8 +289,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
         answer.FrameCount() + static_cast<std::size_t>(std::ceil(std::max(clock.seconds, 0.0) * answer.rate_hz));
     RawMotion moved;
     if (clock.seconds != 0) moved = Sampled(answer, answer.rate_hz, -clock.seconds, count);
-    const PointTracks found = Columns(clock.seconds != 0 ? moved : answer, of_answer, count);
-    matched.lag = FindTimeShift(Columns(truth, of_truth, frames), truth_rate_hz, found, answer.rate_hz);
+    const PointTracks found = JointColumns(clock.seconds != 0 ? moved : answer, of_answer, count);
+    matched.lag = FindTimeShift(JointColumns(truth, of_truth, frames), truth_rate_hz, found, answer.rate_hz);
     if (!matched.lag) {
       return Fail({answer.name},
                   "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "
@@ -326,7 +308,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.is_interpolated = judged.is_interpolated;
   matched.is_even = judged.is_even;
   matched.pair.rate_hz = judged.rate_hz;
-  matched.pair.truth = Columns(true_at, of_truth, count);
+  matched.pair.truth = JointColumns(true_at, of_truth, count);
   matched.pair.true_turns = TurnsOf(true_at, of_truth, count);
   matched.pair.true_root = RoleColumns(true_at, {Role::kHipCentre}, count).positions;
   matched.pair.true_contacts = true_at.contacts;
@@ -336,8 +318,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.pair.found_root.clear();
   }
   if (judged.rate_hz != truth_rate_hz || judged.is_interpolated || !judged.own.empty()) {
-    matched.shown = {Columns(truth, of_truth, frames),
-                     Columns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames), truth_rate_hz};
+    matched.shown = {JointColumns(truth, of_truth, frames),
+                     JointColumns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames), truth_rate_hz};
   }
   if (count > 0) matched.own_start_s = judged.of_truth.front() / truth_rate_hz;
   if (!judged.own.empty()) {
@@ -378,7 +360,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   }
   matched.truth_begin_s = truth.start_s.value_or(0);
   matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
-  matched.doubts = DoubtsOnPair(truth, answer, common, matched, start_s);
+  matched.doubts = DoubtsOnPair({truth, of_truth}, {answer, of_answer}, matched, start_s);
   return matched;
 }
 

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bench/metrics/alignment.h"
 #include "bench/metrics/time_shift.h"
+#include "bench/tasks/evaluation/common_joints.h"
 
 namespace etude {
 namespace {
@@ -59,13 +61,12 @@ std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
     FrameFits fits;
     fits.fits = {change};
     fits.length = pair.found.FrameCount();
-    return MeanJointErrorMm(pair, fits).value_or(0);
+    return *MeanJointErrorMm(pair, fits);  // the fit has used at least three joints that are seen in both
   };
   const double before = mean_mm({}), after = mean_mm(*fit);
   if (before < kMin_mm || after > kFarBetter * before) return "";
   return fmt::format(
-      "the answer's axes X, Y, Z seem to point along the truth's {}: with these axes, and moved, its mean joint error "
-      "is "
+      "the answer's axes X, Y, Z seem to point along the truth's {}: with these axes, and moved, its mean error is "
       "{:.3g} mm instead of {:.3g}",
       axes, after, before);
 }
@@ -74,13 +75,18 @@ std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
 /// 150 frames of the truth, evenly chosen, are compared.
 class DistanceComparison {
  public:
-  DistanceComparison(const RawMotion& truth, const RawMotion& answer, const std::vector<CommonJoint>& common)
-      : truth_(truth), answer_(answer) {
-    constexpr std::size_t kMaxJoints = 8, kMaxFrames = 150;
-    const std::size_t count = std::min(common.size(), kMaxJoints);
-    for (std::size_t i = 0; i < count; ++i) joints_.push_back(common[i * common.size() / count]);
-    stride_ = 1 + truth.FrameCount() / kMaxFrames;
-    for (std::size_t f = 0; f < truth.FrameCount(); f += stride_) true_.push_back(DistancesAt(f, truth_, true));
+  DistanceComparison(const JudgedSide& truth, const JudgedSide& answer) {
+    constexpr std::size_t kMaxFrames = 150;
+    const auto chosen = [](const JudgedSide& side) {
+      const std::size_t count = std::min(side.joints.size(), kMaxJoints);
+      std::vector<int> joints;
+      for (std::size_t i = 0; i < count; ++i) joints.push_back(side.joints[i * side.joints.size() / count]);
+      return JointColumns(side.motion, joints, side.motion.FrameCount());
+    };
+    answer_ = chosen(answer);
+    const PointTracks all = chosen(truth);
+    stride_ = 1 + all.FrameCount() / kMaxFrames;
+    for (std::size_t f = 0; f < all.FrameCount(); f += stride_) true_.push_back(DistancesAt(all.Frame(f)));
   }
 
   struct Difference {
@@ -95,7 +101,7 @@ class DistanceComparison {
     for (std::size_t i = 0; i < true_.size(); ++i) {
       const double frame = std::round(at(static_cast<double>(i * stride_)));
       if (frame < 0 || frame >= static_cast<double>(answer_.FrameCount())) continue;
-      const auto found = DistancesAt(static_cast<std::size_t>(frame), answer_, false);
+      const auto found = DistancesAt(answer_.Frame(static_cast<std::size_t>(frame)));
       for (std::size_t pair = 0; pair < kMaxPairs; ++pair) {
         const double difference = found[pair] - true_[i][pair];
         if (std::isnan(difference)) continue;
@@ -114,45 +120,30 @@ class DistanceComparison {
   }
 
  private:
-  static constexpr std::size_t kMaxPairs = 28;
+  static constexpr std::size_t kMaxJoints = 8, kMaxPairs = kMaxJoints * (kMaxJoints - 1) / 2;
 
-  std::array<double, kMaxPairs> DistancesAt(std::size_t frame, const RawMotion& motion, bool is_truth) const {
+  static std::array<double, kMaxPairs> DistancesAt(std::span<const glm::dvec3> joints) {
     std::array<double, kMaxPairs> distances{};
     distances.fill(std::nan(""));
     std::size_t pair = 0;
-    const auto at = [&](const CommonJoint& joint) -> const glm::dvec3& {
-      return motion.At(frame, static_cast<std::size_t>(is_truth ? joint.truth : joint.answer));
-    };
-    for (std::size_t a = 0; a < joints_.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) distances[pair++] = glm::distance(at(joints_[a]), at(joints_[b]));
+    for (std::size_t a = 0; a < joints.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) distances[pair++] = glm::distance(joints[a], joints[b]);
     }
     return distances;
   }
 
-  const RawMotion &truth_, &answer_;
-  std::vector<CommonJoint> joints_;
+  PointTracks answer_;
   std::size_t stride_ = 1;
   std::vector<std::array<double, kMaxPairs>> true_;
 };
 
-/// Returns the positions of the judged joints.
-PointTracks ColumnsOf(const RawMotion& motion, const std::vector<CommonJoint>& common, int CommonJoint::*column) {
-  PointTracks tracks{common.size(), {}};
-  for (std::size_t f = 0; f < motion.FrameCount(); ++f) {
-    for (const CommonJoint& joint : common) {
-      tracks.positions.push_back(motion.At(f, static_cast<std::size_t>(joint.*column)));
-    }
-  }
-  return tracks;
-}
-
 /// Returns a doubt if the answer fits far better at other times; otherwise "".
-std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const std::vector<CommonJoint>& common,
-                         double start_s) {
+std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_side, double start_s) {
   constexpr double kFarBetter = 0.5, kMin_m = 0.01, kMinCompared = 0.5, kOtherLength = 0.05;
   constexpr std::size_t kMinFrames = 5;
+  const RawMotion &truth = true_side.motion, &answer = found_side.motion;
   if (std::min(truth.FrameCount(), answer.FrameCount()) < kMinFrames) return "";
-  const DistanceComparison comparison(truth, answer, common);
+  const DistanceComparison comparison(true_side, found_side);
   const auto shifted = [&](double shift_s) {
     return comparison.Compare([&](double f) { return (f / truth.rate_hz + start_s + shift_s) * answer.rate_hz; });
   };
@@ -195,8 +186,8 @@ std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const 
   if (best == 0 || std::abs(best) == reach) return "";
   // A part without motion fits a body that stands still, so FindTimeShift must find a shift, too. A shift below one
   // frame of the slower file may only come from taking the nearest frames.
-  const auto found = FindTimeShift(ColumnsOf(truth, common, &CommonJoint::truth), truth.rate_hz,
-                                   ColumnsOf(answer, common, &CommonJoint::answer), answer.rate_hz);
+  const auto found = FindTimeShift(JointColumns(truth, true_side.joints, truth.FrameCount()), truth.rate_hz,
+                                   JointColumns(answer, found_side.joints, answer.FrameCount()), answer.rate_hz);
   if (!found) return "";
   constexpr double kSame = 2, kLeast = 0.99;  // frames
   const double frame_s = 1 / std::min(truth.rate_hz, answer.rate_hz), coarse_s = best / truth.rate_hz;
@@ -205,18 +196,18 @@ std::string DoubtOnTimes(const RawMotion& truth, const RawMotion& answer, const 
   if (std::abs(shift_s) < kLeast * frame_s) return "";
   return fmt::format(
       "the answer seems to be {:.3g} s {}: with this shift, distances between joints differ by {:.3g} mm "
-      "instead of {:.3g} (--lag find measures and removes it)",
-      std::abs(shift_s), shift_s > 0 ? "late" : "early", kToMm * best_m, kToMm * paired.rms_m);
+      "instead of {:.3g}{}",
+      std::abs(shift_s), shift_s > 0 ? "late" : "early", kToMm * best_m, kToMm * paired.rms_m,
+      is_same ? " (--lag find measures and removes it)" : "");
 }
 
 }  // namespace
 
-std::vector<std::string> DoubtsOnPair(const RawMotion& truth, const RawMotion& answer,
-                                      const std::vector<CommonJoint>& common, const MatchedMotions& matched,
+std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,
                                       double start_s) {
-  const bool has_doubts = !truth.doubts.empty() || !answer.doubts.empty();
+  const bool has_doubts = !truth.motion.doubts.empty() || !answer.motion.doubts.empty();
   std::vector<std::string> doubts{DoubtOnRoots(matched.pair), DoubtOnAxes(matched.pair, has_doubts)};
-  if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, common, start_s));
+  if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, start_s));
   std::erase(doubts, "");
   return doubts;
 }

@@ -3,24 +3,29 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/evaluation/common_joints.h"
 #include "bench/tasks/evaluation/match.h"
 #include "engine/motion/raw_motion.h"
 
 namespace etude {
 
+/// A truth or an answer, and its judged joints, in the order of the other side's.
+struct JudgedSide {
+  const RawMotion& motion;
+  const std::vector<int>& joints;
+};
+
 /// Returns doubts, as sentences for users, about whether two files describe one motion in the same way. A doubt states
-/// one change of the answer that removes most of its error, so the error may come from how a file was written:
+/// one change of the answer that removes most of its error. The error may then come from how a file was written:
 /// - the root of one file stays at the origin, and the other one's does not (positions relative to the root);
 /// - axes: a permutation of the answer's axes, some of them reversed, removes nine tenths of the mean joint error
 ///   (if there is a doubt about one of the files, only with Y up in both);
-/// - time: at another rate, or after a shift of one frame to kMaxTimeShift_s, distances between joints agree at least
-///   twice as well, and FindTimeShift finds a shift, too. This is not searched if the best shift was already removed
-///   (`matched.lag`).
-/// Limits and method are our own. `common` are the judged joints, which `matched` holds frame by frame; the truth's
-/// first frame is paired with the answer at `start_s`.
-std::vector<std::string> DoubtsOnPair(const RawMotion& truth, const RawMotion& answer,
-                                      const std::vector<CommonJoint>& common, const MatchedMotions& matched,
+/// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
+/// large.
+///   A shift has at least one frame and at most kMaxTimeShift_s, and FindTimeShift must find a shift, too. If a lag was
+///   already removed (`matched.lag`), times are not searched.
+/// Limits and method are our own. `matched` holds the judged joints frame by frame. The truth's first frame is paired
+/// with the answer at `start_s`.
+std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,
                                       double start_s);
 
 }  // namespace etude

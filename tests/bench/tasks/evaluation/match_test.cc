@@ -489,6 +489,16 @@ RawMotion WithErrors(RawMotion motion, double size_m) {
   });
 }
 
+/// Returns the motion in reverse.
+RawMotion Reversed(const RawMotion& motion) {
+  RawMotion reversed = motion;
+  const std::size_t joints = motion.joints.size(), frames = motion.FrameCount();
+  for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t j = 0; j < joints; ++j) reversed.positions[f * joints + j] = motion.At(frames - 1 - f, j);
+  }
+  return reversed;
+}
+
 TEST(DoubtsOnPair, AreNoneOfAnswersThatAreOnlyWrong) {
   const RawMotion truth = Swaying(30, 150, 0);
   EXPECT_THAT(Doubts(truth, truth), IsEmpty());
@@ -513,19 +523,9 @@ TEST(DoubtsOnPair, AreNoneOfAnswersThatAreOnlyWrong) {
   }
   EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 120), 0.005)), IsEmpty());
   EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 50), 0.005)), IsEmpty());
-  std::ranges::reverse(kick.positions);
-  for (std::size_t f = 0; f < 120; ++f) {
-    const auto frame = kick.positions.begin() + static_cast<std::ptrdiff_t>(f * kick.joints.size());
-    std::reverse(frame, frame + static_cast<std::ptrdiff_t>(kick.joints.size()));
-  }
-  EXPECT_THAT(Doubts(kick, WithErrors(Gliding(30, 50), 0.005)), IsEmpty());
+  EXPECT_THAT(Doubts(Reversed(kick), WithErrors(Gliding(30, 50), 0.005)), IsEmpty());
   // The motion in reverse, and one whose limbs sway at other times.
-  RawMotion other = truth;
-  std::ranges::reverse(other.positions);
-  for (std::size_t f = 0; f < 150; ++f) {
-    const auto frame = other.positions.begin() + static_cast<std::ptrdiff_t>(f * truth.joints.size());
-    std::reverse(frame, frame + static_cast<std::ptrdiff_t>(truth.joints.size()));
-  }
+  RawMotion other = Reversed(truth);
   EXPECT_THAT(Doubts(truth, other), IsEmpty());
   for (std::size_t j = 0; j < truth.joints.size(); ++j) {
     const RawMotion late = Swaying(30, 150, 0.7 * static_cast<double>(j));
