@@ -61,8 +61,8 @@ TEST(ReadJointRecording, LeavesTheFramesOfMissingRowsEmpty) {
   EXPECT_EQ(faster->frames.size(), whole->frames.size());
 }
 
-/// Returns the dance as CSV. Each row is `late_s(row)` later than its even time, at most half a frame, except where it
-/// is later than the dance.
+/// Returns the dance as CSV. The time of each row is changed by `late_s(row)`; up to a second, its pose is that of the
+/// changed time.
 template <typename Late>
 std::string DanceAt(const Late& late_s) {
   const auto csv = ReadJointCsv(Dance(0, 0), "whole.csv");
@@ -101,8 +101,9 @@ TEST(ReadJointRecording, KeepsTheRowsOfUnevenTimesAndTheirTimes) {
 }
 
 TEST(ReadJointRecording, NoRowOfAJitteringClockIsLost) {
-  // Neighbouring times differ by up to 80 % of a frame, so often two rows are nearest to one frame.
-  const auto late_s = [](std::size_t row) { return 0.0133 * std::sin(2.2 * static_cast<double>(row)); };
+  // The first row is 0.4 frames late and others are as early, so often two rows are nearest to one frame after the
+  // first.
+  const auto late_s = [](std::size_t row) { return 0.0133 * std::cos(2.2 * static_cast<double>(row)); };
   const std::string text = DanceAt(late_s);
   ASSERT_OK(rows, ReadJointCsv(text, "jitter.csv"));
   ASSERT_OK(read, ReadJointRecording(text, "jitter.csv", {}));
