@@ -66,14 +66,15 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   for (const SuccessFinding& success : findings.successes) {
     text += fmt::format("- {}\n", EscapeMarkdown(SuccessSentence(success)));
   }
-  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMaxListed))) {
-    text += fmt::format("  - {}\n", EscapeMarkdown(DescribeCount(reason)));
-  }
-  const std::string rest = LeftOutWords(findings.reasons.size(), kMaxListed, "reasons", "cells.jsonl");
-  if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
-  for (const ReasonCount& doubt : std::span(findings.doubts).first(std::min(findings.doubts.size(), kMaxListed))) {
-    text += fmt::format("- {}\n", EscapeMarkdown(DescribeCount(doubt)));
-  }
+  const auto list = [&](const std::vector<ReasonCount>& counts, std::string_view what) {
+    for (const ReasonCount& one : std::span(counts).first(std::min(counts.size(), kMaxListed))) {
+      text += fmt::format("  - {}\n", EscapeMarkdown(DescribeCount(one)));
+    }
+    const std::string rest = LeftOutWords(counts.size(), kMaxListed, what, "cells.jsonl");
+    if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
+  };
+  list(findings.reasons, "reasons");
+  list(findings.doubts, "doubts");
   return text + PosePairsMarkdown(run, scenario) + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) +
          PaperAMarkdown(scenario) + PaperBMarkdown(run, scenario);
 }
