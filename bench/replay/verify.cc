@@ -62,8 +62,7 @@ Result<Verified> VerifySummary(const FilePath& folder, const FinishedRun& run, i
   verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
   if (!differences.empty()) {
     verified.differences[0] +=
-        "; if only intervals and p-values differ, another version of Etude may have drawn other random numbers for "
-        "them "
+        "; if only intervals and p-values differ, another version of Etude may have drawn other random numbers "
         "(repeat the run to compare)";
   }
   return verified;

@@ -140,7 +140,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   // the cost was measured.
   ASSIGN_OR_RETURN(auto suite, ReadSuiteToRun(options));
   if (!suite.seed.IsPlain()) ThrowOtherDice(suite);
-  const std::vector<RefusedClip> refused = LeftOutOf(suite);
+  std::vector<RefusedClip> refused = LeftOutOf(suite);
   ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
   std::vector<ScenarioForecast> told;
   std::vector<Study> studies;
@@ -212,7 +212,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
     total += one.seconds_per_world * worlds;
     forecast.scenarios.push_back(std::move(one));
   }
-  forecast.refused = refused;
+  forecast.refused = std::move(refused);
   forecast.seconds = total / forecast.workers;
   return forecast;
 }

@@ -65,10 +65,10 @@ std::string Table(const NamedCamera& named) {
 Place PlaceOf(const toml::source_region& region) {
   return {.file = {}, .line = static_cast<int>(region.begin.line), .column = static_cast<int>(region.begin.column)};
 }
+Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
+
 /// Returns the beginning of a value, for messages.
 std::string Shown(const toml::node& value) { return fmt::format("{:.40}", TextOf(value)); }
-
-Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
 
 /// Adds the numbers of a value, which is a number or a list of lists of numbers. Returns false if it has anything else.
 bool AddNumbers(const toml::node& value, std::vector<double>& numbers) {

@@ -55,20 +55,17 @@ std::vector<std::string> RigDoubts(std::span<const NamedCamera> cameras) {
   for (const auto& [name, camera] : cameras) {
     const Intrinsics& in = camera.intrinsics;
     if (!HasPicture(camera)) continue;
-    if (IsInPicture(in, {in.cx, in.cy})) {
-      if (IsMiddleOfAnotherSize(in)) {
-        doubts.push_back(
-            fmt::format("{}: the principal point ({:.0f}, {:.0f}) is the middle of a picture of {:.0f} x {:.0f} "
-                        "pixels, not of {} x "
-                        "{}; was the camera calibrated with pictures of another size?",
-                        name, in.cx, in.cy, 2 * in.cx, 2 * in.cy, in.width, in.height));
-      }
-      continue;
+    if (!IsInPicture(in, {in.cx, in.cy})) {
+      doubts.push_back(fmt::format(
+          "{}: the principal point ({:.0f}, {:.0f}) is outside the picture of {} x {} pixels; this is right only if "
+          "the picture was cropped",
+          name, in.cx, in.cy, in.width, in.height));
+    } else if (IsMiddleOfAnotherSize(in)) {
+      doubts.push_back(fmt::format(
+          "{}: the principal point ({:.0f}, {:.0f}) is the middle of a picture of {:.0f} x {:.0f} pixels, not of {} x "
+          "{}; was the camera calibrated with pictures of another size?",
+          name, in.cx, in.cy, 2 * in.cx, 2 * in.cy, in.width, in.height));
     }
-    doubts.push_back(
-        fmt::format("{}: the principal point ({:.0f}, {:.0f}) is outside the picture of {} x {} pixels; this is right "
-                    "only if the picture was cropped",
-                    name, in.cx, in.cy, in.width, in.height));
   }
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     bool has_partner = cameras.size() < 2 || !HasPicture(cameras[i].camera);

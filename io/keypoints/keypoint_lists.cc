@@ -33,7 +33,7 @@ std::optional<double> TimeOf(const Json& frame) {
 }
 
 /// Reads results: one object per person, whose image_id gives the frame. COCO's flags and AlphaPose's scores go up
-/// to 2.
+/// to 2, and are scaled to 0…1.
 Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, const FilmOfKeypoints& of,
                                  const Place& place) {
   // Collect the points of every frame and the confidences.
@@ -54,7 +54,7 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
     numbered[*number].push_back(std::move(listed));
   }
   if (numbered.empty()) return Fail(place, "none of {} results has a list 'keypoints'", boxes);
-  // Scale flags to 0…1 and order the landmarks.
+  // Scale confidences of up to 2 to 0…1, and order the landmarks. ReadKeypoints scales larger ones.
   const double scale = largest <= kMaxFlag ? std::max(1.0, largest) : 1;
   std::map<long, std::vector<SeenPerson>> people;
   for (auto& [number, persons] : numbered) {

@@ -137,7 +137,7 @@ JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   return recording;
 }
 
-/// Pearson's correlation of two series, and the number of places in which both have a value.
+/// Pearson's correlation of two series over the `n` frames in which both have a value.
 struct Correlation {
   double r = 0, n = 0;
 };
@@ -161,9 +161,9 @@ std::optional<Correlation> CorrelationAt(const std::vector<std::optional<double>
   return Correlation{(sab - sa * sb / n) / std::sqrt(va * vb), n};
 }
 
-/// Returns the shift at which speeds correlate most, and the one at which they correlate most clearly: r √n, the
-/// correlation in its standard deviations by chance. Chance gives a short overlap a high r, and a motion that repeats
-/// gives a long overlap a high r √n, so either may be wrong. At least half of the shorter recording must overlap.
+/// Returns two shifts: the one at which speeds have the largest r √n (their correlation r, in its standard deviations
+/// by chance), and the one with the largest r. In a short overlap, chance gives a high r; in a long overlap, a motion
+/// that repeats gives a high r √n. So either may be wrong. At least half of the shorter recording must overlap.
 std::array<double, 2> ShiftsBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
   const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), min_overlap = std::min(na, nb) / 2;
@@ -232,7 +232,7 @@ std::optional<glm::dvec3> TwinAlignment::JointAt(const std::optional<Carrier>& c
 
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin) {
   if (recording.frames.empty() || twin.frames.empty()) return std::nullopt;
-  // The clearest correlation comes first; the highest one must fit far better to replace it.
+  // The second shift must fit far better to replace the first.
   constexpr double kFarBetter = 0.7;
   const double frame_s = 1 / recording.rate_hz;
   std::optional<TwinAlignment> coarse;

@@ -121,10 +121,11 @@ Result<void> CheckBones(const std::vector<RolePositions>& frames, const std::str
               RoleName(*ParentOf(end)), RoleName(end), longest, kMinLongest_m, kMaxBone_m);
 }
 
-/// Gives each row of a CSV with uneven times the nearest even time that no earlier row has. Returns how much later than
-/// its even time each frame's row is, seconds; nothing if no frame lies between two rows. Leaves out rows for which
-/// this would be over one and a half frames, and all but the last row of a time; the remark says how many.
-Result<std::vector<double>> EvenTimes(JointCsv& csv, const std::string& file) {
+/// Gives the rows of a CSV evenly spaced times: each row moves to the nearest frame that follows the row before it.
+/// Leaves out rows that would move by more than one and a half frames, and all but the last row of equal times; the
+/// remark says how many. Returns by how much each frame's row was later than its new time, seconds. Changes nothing and
+/// returns nothing if no frame lies between two rows.
+Result<std::vector<double>> SpaceEvenly(JointCsv& csv, const std::string& file) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(csv.times_s, csv.lines, std::nullopt, kRoleCount, file));
   const auto is_between = [](const GridFrame& frame) { return !frame.is_hole && frame.part > 0; };
   if (!grid || std::ranges::none_of(grid->frames, is_between)) return std::vector<double>{};
@@ -173,7 +174,7 @@ Result<LaidCsv> ReadLaidCsv(std::string_view text, const std::string& file, std:
                             bool keeps_rows) {
   ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
   Result<std::vector<double>> late_s;
-  if (keeps_rows) late_s = EvenTimes(csv, file);
+  if (keeps_rows) late_s = SpaceEvenly(csv, file);
   auto laid = late_s ? LayOnClock(csv, file) : tl::unexpected(late_s.error());
   if (!laid && rate_hz) {
     const std::string why = "Etude does not use the times: " + ToString(laid.error());

@@ -22,7 +22,7 @@ struct JointRecording {
   /// The position of the sensor in the recording's coordinate frame: the origin for a Kinect, unknown for other files.
   std::optional<glm::dvec3> sensor_at;
   std::string remark = "";  ///< a message for the user about the file's times; "" if there is none
-  /// How much later than its even time each frame was taken, seconds; empty: all frames have even times.
+  /// By how much each frame was taken later than `frame / rate_hz`, seconds; empty: by nothing.
   std::vector<double> late_s = {};
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
@@ -48,9 +48,9 @@ struct TwinMotion {
 };
 
 /// Reads a Kinect v2's text (30 Hz unless `rate_hz` is given) or a joint CSV. The first row decides the format. The
-/// rows of a CSV are placed on the nearest even frames by their times (GridOfRows) and keep their own times
-/// (JointRecording::late_s), because interpolation would average their noise away. In a frame whose row is missing, no
-/// joint is seen. `rate_hz` replaces the rate of the times. A failure states the file, the line and what is allowed; so
+/// rows of a CSV are placed on evenly spaced frames by their times (GridOfRows), without interpolation, which would
+/// average their noise away; JointRecording::late_s keeps their own times. In a frame whose row is missing, no joint is
+/// seen. `rate_hz` replaces the rate of the times. A failure states the file, the line and what is allowed; so
 /// do bones of a length that no person has, because then the positions are not in metres.
 Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
                                           std::optional<double> rate_hz);

@@ -24,8 +24,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the rotation from the file's axes to ours, X to the right (CoordAxis), Y up and Z to the front. If the
-/// stated axes are left-handed or not three, only the up axis counts, as in other programs.
+/// Returns the rotation from the file's axes (right: CoordAxis, up: UpAxis, front: FrontAxis) to X, Y and Z. If the
+/// three stated axes are left-handed, or two of them are the same, only the up axis counts, as in other programs.
 aiMatrix4x4 TurnOf(const aiScene& scene) {
   const auto number = [&](const char* name, std::int32_t otherwise) {
     if (scene.mMetaData != nullptr) scene.mMetaData->Get(name, otherwise);
