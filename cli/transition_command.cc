@@ -64,6 +64,8 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                                               {"points_s", made.points_s},
                                               {"duration_s", made.duration_s},
                                               {"why", made.why},
+                                              {"from_changes", made.from_changes},
+                                              {"to_changes", made.to_changes},
                                               {"output", options.output}}));
   } else if (is_unbroken) {
     fmt::print("{}; {} is not played\n  written as a body of twenty joints at 30 Hz, {:.2f} s long\n", made.why,
@@ -77,6 +79,8 @@ Result<int> TransitionCommand(TransitionCommandOptions asked) {
                made.duration_s);
     for (const double point : made.points_s) fmt::print(" {:.2f} s", point);
     fmt::print("\n");
+    for (const std::string& change : made.from_changes) fmt::print("  {}: {}\n", options.from, change);
+    for (const std::string& change : made.to_changes) fmt::print("  {}: {}\n", options.to, change);
   }
   TellWritten(options.output, asked.as_json ? stderr : stdout);
   return kSuccess;

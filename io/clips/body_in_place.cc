@@ -86,16 +86,6 @@ Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options) {
                      .others = std::move(others)};
 }
 
-FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m) {
-  return {.floor_m = floor_m,
-          .is_floor_known = body.is_floor_known,
-          .begin_s = body.begin_s,
-          .unseen = body.unseen,
-          .lost_before_s = body.lost_before_s,
-          .lost_after_s = body.lost_after_s,
-          .is_of_markers = body.is_of_markers};
-}
-
 FaultsInPlace FindFaultsInPlace(const BodyInPlace& body, std::optional<double> floor_m) {
   const auto end_of = [](double begin_s, const BodyMotion& motion) {
     return begin_s + static_cast<double>(motion.poses.size()) / motion.rate_hz;
@@ -103,7 +93,8 @@ FaultsInPlace FindFaultsInPlace(const BodyInPlace& body, std::optional<double> f
   const double file_begin_s = body.begin_s - body.lost_before_s;
   const double file_end_s = end_of(body.begin_s, body.motion) + body.lost_after_s, step_s = 1 / body.motion.rate_hz;
   FaultsInPlace all{.found = {}, .file_s = file_end_s - file_begin_s - step_s};
-  FaultOptions options = FaultOptionsOf(body, floor_m);
+  FaultOptions options{
+      .floor_m = floor_m, .is_floor_known = body.is_floor_known, .is_of_markers = body.is_of_markers};
   if (!body.others.empty()) options.never = NeverSeen(body);
   // Judge the longest stretch first, because it determines the floor of the others. Its gaps end at its neighbours.
   const auto judge = [&](double begin_s, const BodyMotion& motion, const std::vector<JointSet>& unseen) {

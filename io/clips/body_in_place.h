@@ -38,9 +38,6 @@ struct BodyInPlace {
   std::vector<OtherStretch> others = {};  ///< the other stretches, in order of time; empty: see OpenBodyInPlace
 };
 
-/// Returns the options for finding faults in this body; `floor_m` becomes FaultOptions::floor_m.
-FaultOptions FaultOptionsOf(const BodyInPlace& body, std::optional<double> floor_m = {});
-
 /// Finds the body of a clip with UnderstandClip, and moves the body back to the height that it has in the file. Fails
 /// if UnderstandClip fails.
 Result<BodyInPlace> BodyInPlaceOf(SourceClip clip, const OpenOptions& options);
@@ -56,7 +53,7 @@ struct FaultsInPlace {
 };
 
 /// Finds the faults of each stretch; the longest one determines the floor. Each gap between two stretches is a fault of
-/// its own.
+/// its own. `floor_m` has the meaning of FaultOptions::floor_m.
 FaultsInPlace FindFaultsInPlace(const BodyInPlace& body, std::optional<double> floor_m = {});
 
 /// Reads one clip (ReadOneClip) and finds its body, with all its stretches.

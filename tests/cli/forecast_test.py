@@ -117,6 +117,19 @@ class Transition(EtudeCase):
         seen = self.etude("clip", "info", out)
         self.assertEqual(seen.returncode, 0, seen.stderr)
         self.assertIn(f"{told['duration_s']:.2f} s", seen.stdout)
+        # What was changed in either clip is told: a gap of 9 frames was bridged.
+        whole, gap = self.folder / "whole.trc", self.folder / "gap.trc"
+        self.ends(0, "clip", "convert", "builtin:clap", whole)
+        lines = whole.read_text().split("\n")
+        first = next(k for k, line in enumerate(lines) if line.startswith("10\t"))
+        frames = sum("\t" in line for line in lines[first:]) + 9
+        gap.write_text("\n".join(lines[:first] + lines[first + 9:]).replace(f"\t{frames}\t", f"\t{frames - 9}\t"))
+        bridged = "by their times, 9 of"
+        into_gap = ["transition", "builtin:groove", gap, "--at", "1", "-o", self.folder / "bridged.trc", "--overwrite"]
+        self.assertIn(f"  {gap}: {bridged}", self.ends(0, *into_gap).stdout)
+        told = self.facts(*into_gap)
+        self.assertTrue(any(bridged in change for change in told["to_changes"]), told)
+        self.assertFalse(any(bridged in change for change in told["from_changes"]), told)
         # Without --json, another method is described as text. A request after the clip's end is refused.
         said = self.etude("transition", "builtin:groove", "builtin:clap", "--at", "1", "-o", self.folder / "cut.trc", "--choice",
                           "now", "--join", "cut")

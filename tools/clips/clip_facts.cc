@@ -258,7 +258,7 @@ bool HasMarkers(const std::array<std::vector<std::string>, kRoleCount>& markers)
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
   OpenOptions with_gaps = options;  // keep gaps, so that joints that the file does not show have no faults
-  with_gaps.keeps_shown = true;
+  with_gaps.keeps_shown = with_gaps.keeps_others = true;
   auto clips = ReadClips(reference, with_gaps);
   if (!clips) return {FactsWithoutClip(reference, options, clips.error())};
   std::vector<ClipFacts> all;
@@ -286,7 +286,7 @@ ClipFacts FactsOf(const OpenedClip& clip) {
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options) {
   const auto body = BodyInPlaceOf(clip, options);
   if (!body) return std::nullopt;
-  return FindMotionFaults(body->motion, FaultOptionsOf(*body));
+  return FindFaultsInPlace(*body).found;
 }
 
 Json FactsAsJson(const std::vector<ClipFacts>& facts) {

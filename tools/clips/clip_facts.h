@@ -64,7 +64,7 @@ bool HasMarkers(const std::array<std::vector<std::string>, kRoleCount>& markers)
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);
-/// Finds the faults of a clip's motion with FindMotionFaults, at the rate and the heights of the clip's file. Returns
+/// Finds the faults of a clip's motion with FindFaultsInPlace, at the rate and the heights of the clip's file. Returns
 /// nullopt if UnderstandClip fails at that rate.
 std::optional<MotionFaults> FaultsOf(const SourceClip& clip, const OpenOptions& options);
 

@@ -22,6 +22,7 @@ struct TimedBody {
   std::string name;
   BodyMotion motion;
   double begin_s = 0;
+  std::vector<std::string> changes;  ///< BodyConversion::changes without the doubts
 };
 
 Result<TimedBody> OpenBody(const std::string& reference, const OpenOptions& reading) {
@@ -30,8 +31,10 @@ Result<TimedBody> OpenBody(const std::string& reference, const OpenOptions& read
   ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), reading));
   if (opened.body.motion.poses.size() < 2)
     return Fail({reference}, "the clip has only one frame at 30 Hz; a transition needs two frames or more");
+  std::erase_if(opened.body.changes,
+                [&](const std::string& change) { return std::ranges::count(opened.body.doubts, change) > 0; });
   return TimedBody{opened.source.name, std::move(opened.body.motion),
-                   hidden_s + static_cast<double>(opened.body.dropped_frames) / rate_hz};
+                   hidden_s + static_cast<double>(opened.body.dropped_frames) / rate_hz, std::move(opened.body.changes)};
 }
 
 Result<void> WriteBody(const BodyMotion& motion, const std::string& path) {
@@ -79,7 +82,10 @@ Result<TransitionFile> WriteTransition(const TransitionFileOptions& options) {
       .from = 0, .request_frame = static_cast<int>(frame), .to = 1, .budget_s = options.budget_s};
   const Transition made =
       MakeTransition(library, request, {.choice = FindChoice(options.choice), .join = FindJoin(options.join)});
-  TransitionFile told{.branch = made.record.branch, .why = made.record.why};
+  TransitionFile told{.branch = made.record.branch,
+                      .why = made.record.why,
+                      .from_changes = std::move(from.changes),
+                      .to_changes = std::move(to.changes)};
   if (made.record.segments.empty()) return told;
   const Segment &left = made.record.segments.front(), &entered = made.record.segments.back();
   told.left_s = from.begin_s + left.last / kJudgedRateHz;

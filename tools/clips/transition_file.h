@@ -29,6 +29,8 @@ struct TransitionFile {
   std::string through = {};           ///< name of the clip through which the transition leads, "" = none
   std::vector<double> points_s = {};  ///< times of the transition points in the written file
   double duration_s = 0;              ///< length of the written motion
+  /// BodyConversion::changes of the two clips, without the doubts, which OpenOptions::on_doubt receives.
+  std::vector<std::string> from_changes = {}, to_changes = {};
 };
 
 /// Plays `from` from its start, changes into `to` by a choice of frames and a join, plays `to` to its end, and writes

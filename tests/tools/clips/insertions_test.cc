@@ -332,7 +332,12 @@ std::vector<TriedClip> LoadTried() {
         std::string name = source.source;
         auto body = BodyInPlaceOf(std::move(source), {});
         if (!body || body->motion.poses.size() < kMinFramesForFaults) continue;
-        FaultOptions options = FaultOptionsOf(*body);
+        FaultOptions options{.is_floor_known = body->is_floor_known,
+                             .begin_s = body->begin_s,
+                             .unseen = std::move(body->unseen),
+                             .lost_before_s = body->lost_before_s,
+                             .lost_after_s = body->lost_after_s,
+                             .is_of_markers = body->is_of_markers};
         clips.push_back({std::move(name), std::move(body->motion), std::move(options)});
         clips.back().own = FindMotionFaults(clips.back().motion, clips.back().options);
       }
