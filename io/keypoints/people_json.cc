@@ -196,25 +196,38 @@ Result<std::span<const Landmark>> OrderOf(std::size_t count, const std::string& 
   return std::span(chosen->landmarks);
 }
 
-std::optional<double> PixelOf(const Json* json) {
+/// Reads a coordinate or a confidence, which may be a flag; a missing value or null gives nullopt.
+Result<std::optional<double>> ValueOf(const Json* json, const Place& place) {
+  if (json == nullptr || json->is_null()) return std::optional<double>();
+  if (json->is_boolean()) return std::optional(json->get<bool>() ? 1.0 : 0.0);
   const auto value = NumberOf(json);
-  return value && std::abs(*value) <= kMaxListedPixel ? value : std::nullopt;
+  if (value && std::abs(*value) <= kMaxListedPixel) return value;
+  return Fail(place, "a value of a keypoint is {}; allowed: null, or a number of at most {:g}", ShowJson(*json),
+              kMaxListedPixel);
 }
 
-/// Reads a point with named coordinates; a point without numbers was not seen. Fails if a number beside the
-/// coordinates may be a score under a name that is not known.
+/// Makes a point of its coordinates and its confidence; a point without coordinates was not seen. `sure` is null if
+/// points have no confidence.
+Result<Keypoint> PointAt(const Json* x, const Json* y, const Json* sure, const Place& place) {
+  ASSIGN_OR_RETURN(const auto column, ValueOf(x, place));
+  ASSIGN_OR_RETURN(const auto row, ValueOf(y, place));
+  ASSIGN_OR_RETURN(const auto confidence, ValueOf(sure, place));
+  if (!column || !row) return Keypoint{};
+  return Keypoint{glm::dvec2(*column, *row) + kHalfPixel, sure == nullptr ? 1 : confidence.value_or(0)};
+}
+
+/// Reads a point with named coordinates. Fails if a number beside the coordinates may be a score under a name that is
+/// not known.
 Result<Keypoint> PointOf(const Json& json, const Place& place) {
-  const auto x = PixelOf(Member(json, "x")), y = PixelOf(Member(json, "y"));
-  const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
-                                        "prob", "keypoint_score", "kp_score", "c", "p", "v"});
+  const Json* sure = FirstMember(json, {"visibility", "visible", "score", "confidence", "conf", "likelihood",
+                                        "probability", "prob", "keypoint_score", "kp_score", "c", "p", "v"});
   for (const auto& [key, value] : json.items()) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
     return Fail(place,
                 "a keypoint has the number '{}' in addition to x and y; allowed: score, confidence or visibility", key);
   }
-  if (!x || !y) return Keypoint{};
-  return Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure == nullptr ? 1 : PixelOf(sure).value_or(0)};
+  return PointAt(Member(json, "x"), Member(json, "y"), sure, place);
 }
 
 /// Returns the list of a person's scores; null if there is none. Fails if another list of numbers, as long as the list
@@ -240,24 +253,48 @@ Result<std::vector<Keypoint>> PointsOfPairs(const Json& list, const Json* scores
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& pair = list[i];
     if (!pair.is_array() || pair.size() < 2) return Fail(place, "a keypoint is {}; allowed: [x, y]", ShowJson(pair));
-    const auto x = PixelOf(&pair[0]), y = PixelOf(&pair[1]);
-    double sure = 1;
+    const Json* sure = pair.size() > 2 ? &pair[2] : nullptr;
     if (scores != nullptr && scores->is_array() && scores->size() == list.size()) {
       if (pair.size() > 2 && pair[2] != (*scores)[i]) {
         return Fail(place,
                     "a keypoint has {} coordinates in addition to a score: {}; allowed: pixels of one picture, [x, y]",
                     pair.size(), ShowJson(pair));
       }
-      sure = PixelOf(&(*scores)[i]).value_or(0);
-    } else if (pair.size() > 2) {
-      sure = PixelOf(&pair[2]).value_or(0);
+      sure = &(*scores)[i];
     }
-    points.push_back(x && y ? Keypoint{glm::dvec2(*x, *y) + kHalfPixel, sure} : Keypoint{});
+    ASSIGN_OR_RETURN(const Keypoint read, PointAt(&pair[0], &pair[1], sure, place));
+    points.push_back(read);
+  }
+  return points;
+}
+
+/// Returns true for keypoints as one list for each coordinate, {"x": [...], "y": [...]}, as Ultralytics writes them.
+bool HasCoordinateLists(const Json& json) {
+  const Json *x = Member(json, "x"), *y = Member(json, "y");
+  return x != nullptr && y != nullptr && x->is_array() && y->is_array();
+}
+
+/// Reads the points of HasCoordinateLists.
+Result<std::vector<Keypoint>> PointsOfCoordinates(const Json& lists, const Place& place) {
+  std::vector<Keypoint> points;
+  const std::size_t count = Member(lists, "x")->size();
+  for (const auto& [key, list] : lists.items()) {
+    if (!list.is_array() || list.size() != count) {
+      return Fail(place, "the keypoints have {} values of x, but '{}' is {}; allowed: lists of equal length", count,
+                  key, list.is_array() ? fmt::format("a list of {}", list.size()) : ShowJson(list));
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    Json point = Json::object();
+    for (const auto& [key, list] : lists.items()) point[key] = list[i];
+    ASSIGN_OR_RETURN(const Keypoint read, PointOf(point, place));
+    points.push_back(read);
   }
   return points;
 }
 
 bool IsPoints(const Json& list) {
+  if (HasCoordinateLists(list)) return true;
   if (!list.is_array() || list.empty()) return false;
   const Json& first = list.front();
   const auto is_flat = [](const Json& entry) { return entry.is_number() || entry.is_null(); };
@@ -296,11 +333,15 @@ bool HasKeypoints(const Json& person) {
 }
 
 Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
-  const Json* list = person.is_array() ? &person : KeypointsOf(person);
+  const Json* list = person.is_array() || HasCoordinateLists(person) ? &person : KeypointsOf(person);
+  ListedPerson listed;
+  if (list != nullptr && HasCoordinateLists(*list)) {
+    ASSIGN_OR_RETURN(listed.points, PointsOfCoordinates(*list, place));
+    return listed;
+  }
   if (list == nullptr || !list->is_array() || list->empty()) {
     return Fail(place, "found a person without a list of keypoints: {}", ShowJson(person));
   }
-  ListedPerson listed;
   if (list->front().is_array()) {
     ASSIGN_OR_RETURN(const Json* scores, ScoresOf(person, list->size(), place));
     ASSIGN_OR_RETURN(listed.points, PointsOfPairs(*list, scores, place));

@@ -283,6 +283,35 @@ TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
   EXPECT_THAT(Reason(Write("nameless.json", "{" + info)), HasSubstr("14 keypoints per person; allowed: coco (17)"));
 }
 
+TEST_F(ReadPeople, ReadsOneListForEachCoordinate) {
+  const auto list = [](const std::string& entry) {
+    std::string entries;
+    for (int i = 0; i < 17; ++i) entries += (i == 0 ? "" : ", ") + entry;
+    return "[" + entries + "]";
+  };
+  const auto person = [&](const std::string& points) {
+    return R"([[{"name": "person", "class": 0, "box": {"x1": 1}, "keypoints": {)" + points + "}}], []]";
+  };
+  const std::string xy = R"("x": )" + list("20.5") + R"(, "y": )" + list("7"), sure = R"(, "visible": )";
+  ASSERT_OK(read, ReadKeypoints(Write("u.json", person(xy + sure + list("0.75"))), ""));
+  ASSERT_EQ(read->frames.size(), 2u);
+  ASSERT_EQ(read->frames[0].size(), 1u);
+  EXPECT_TRUE(read->frames[1].empty());
+  EXPECT_EQ(read->frames[0][0][Landmark::kRightHip].pixel, glm::dvec2(21, 7.5));
+  EXPECT_DOUBLE_EQ(read->frames[0][0][Landmark::kNose].confidence, 0.75);
+  // Flags are confidences, and without confidences all keypoints are certain.
+  EXPECT_EQ(ReadKeypoints(Write("flags.json", person(xy + sure + list("true"))), "")
+                ->frames[0][0][Landmark::kNose]
+                .confidence,
+            1);
+  EXPECT_EQ(ReadKeypoints(Write("bare.json", person(xy)), "")->frames[0][0][Landmark::kNose].confidence, 1);
+  // Lists of other lengths and texts are refused, not taken for keypoints that were not seen.
+  EXPECT_THAT(Reason(Write("short.json", person(xy + sure + "[1, 1]"))),
+              HasSubstr("17 values of x, but 'visible' is a list of 2"));
+  EXPECT_THAT(Reason(Write("text.json", person(xy + sure + list("\"0.9\"")))),
+              HasSubstr("a value of a keypoint is \"0.9\"; allowed: null, or a number"));
+}
+
 TEST_F(ReadPeople, TakesSharesOfThePicture) {
   std::string points;
   for (int i = 0; i < 33; ++i)
