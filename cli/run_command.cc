@@ -173,8 +173,18 @@ bool HasSilentMethod(const RunData& run) {
   });
 }
 
+/// Returns the doubts about judged files, which the rows of a run hold.
+Result<DoubtList> DoubtsIn(const std::filesystem::path& folder, const RunData& run) {
+  const bool judges_files = std::ranges::any_of(run.scenarios, [](const ScenarioSummary& one) {
+    return FindTaskKind(one.task) != nullptr && FindTaskKind(one.task)->find_files;
+  });
+  if (!judges_files) return DoubtList{};
+  ASSIGN_OR_RETURN(const auto rows, LoadRunRowByRow(folder));
+  return DoubtsOf(rows);
+}
+
 /// Returns the facts that `etude run --json` prints; `run` is null for a shard.
-Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) {
+Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, const DoubtList& doubts) {
   Json scenarios = Json::array(), silent = Json::array();
   for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
     Json expectations = Json::array();
@@ -193,7 +203,8 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run) 
           {"cells_ok", outcome.cells_ok},
           {"run_s", outcome.seconds},
           {"scenarios", std::move(scenarios)},
-          {"without_answer", std::move(silent)}};
+          {"without_answer", std::move(silent)},
+          {"doubts", doubts.lines()}};
 }
 
 }  // namespace
@@ -208,14 +219,9 @@ int ShowOutcome(const RunOutcome& outcome) {
     run = LoadRun(outcome.folder);  // rows hold the reasons
   if (!run) return Complain(run.error());
   PrintSummary(*run);
-  // Tell the doubts about judged files, which the rows hold.
-  if (std::ranges::any_of(run->scenarios, [](const ScenarioSummary& one) {
-        return FindTaskKind(one.task) != nullptr && FindTaskKind(one.task)->find_files;
-      })) {
-    const auto rows = LoadRunRowByRow(outcome.folder);
-    if (!rows) return Complain(rows.error());
-    DoubtsOf(*rows).Tell();
-  }
+  const auto doubts = DoubtsIn(outcome.folder, *run);
+  if (!doubts) return Complain(doubts.error());
+  doubts->Tell();
   const std::string folder = outcome.folder.string();
   const bool has_silent = HasSilentMethod(*run);
   if (has_silent) {
@@ -253,13 +259,16 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
 /// Prints the facts of a run as JSON. Returns `code`, or the code of a failure to print.
 int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   std::optional<RunData> run;
+  Result<DoubtList> doubts;
   if (shard.IsWhole()) {
     auto outline = LoadRunOutline(outcome.folder);
     if (outline && std::ranges::any_of(outline->scenarios, MayHaveSilentMethod)) outline = LoadRun(outcome.folder);
     if (!outline) return Complain(outline.error());
     run = *std::move(outline);
+    doubts = DoubtsIn(outcome.folder, *run);
+    if (!doubts) return Complain(doubts.error());
   }
-  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr));
+  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr, *doubts));
   return printed ? code : Complain(printed.error());
 }
 

@@ -404,6 +404,9 @@ class Evaluate(EtudeCase):
         done = self.ends(0, "run", scenario, "-o", self.out)
         self.assertRegex(done.stderr, "mine, a: the answer: .*along Z")
         self.assertIn(" · doubtful: the answer: ", self.rows()[0]["reason"])
+        doubts = self.facts("run", scenario, "-o", self.out, "--overwrite")["doubts"]
+        self.assertEqual(len(doubts), 1, doubts)
+        self.assertRegex(doubts[0], "^mine, a: the answer: .*along Z")
 
     def test_a_copy_of_the_truth_is_told(self):
         copy = self.folder / "mine.npz"
