@@ -68,7 +68,11 @@ Place PlaceOf(const toml::source_region& region) {
 Place PlaceOf(const toml::node& node) { return PlaceOf(node.source()); }
 
 /// Returns the beginning of a value, for messages.
-std::string Shown(const toml::node& value) { return fmt::format("{:.40}", TextOf(value)); }
+std::string Shown(const toml::node& value) {
+  constexpr std::size_t kMaxShown = 40;
+  const std::string text = TextOf(value);
+  return fmt::format("{:.{}}{}", text, kMaxShown, text.size() > kMaxShown ? "…" : "");
+}
 
 /// Adds the numbers of a value, which is a number or a list of lists of numbers. Returns false if it has anything else.
 bool AddNumbers(const toml::node& value, std::vector<double>& numbers) {
