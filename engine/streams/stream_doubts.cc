@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/retargeting/exchanged_sides.h"
+#include "engine/retargeting/to_body.h"
 
 namespace etude {
 namespace {
@@ -51,12 +52,14 @@ std::optional<UpRule> StatedUp(const StreamRecording& recording, const StreamOpt
   return recording.format == StreamFormat::kTrc ? OwnJointsUp() : JointCsvUp();
 }
 
-std::array<std::string, 3> DoubtsOf(const SkeletonStream& stream, const std::optional<UpRule>& up) {
+StreamDoubts DoubtsOf(const SkeletonStream& stream, const std::optional<UpRule>& up) {
   constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
   const auto feet = FeetForward(stream);
-  return {up ? FindUp(ShownPoses(stream), stream.rate_hz, *up).doubt : "",
+  const std::vector<BodyPose> poses = ShownPoses(stream);
+  return {up ? FindUp(poses, stream.rate_hz, *up).doubt : "",
           DescribeExchangedJoints(TrackedJoints(stream), stream.rate_hz),
-          feet && *feet < kBackwards ? "the feet point backwards, so the stream may be mirrored (--reflect)" : ""};
+          feet && *feet < kBackwards ? "the feet point backwards, so the stream may be mirrored (--reflect)" : "",
+          DescribeImpossibleHeight(poses)};
 }
 
 LiveDoubts::LiveDoubts(std::optional<UpRule> up, double rate_hz)
@@ -75,7 +78,7 @@ std::vector<std::string> LiveDoubts::Take(std::span<const SensedFrame> frames, b
     if (frame.body_seen || ends_body) shown_.frames.push_back(frame);
   }
   if (shown_.frames.empty() || (shown_.frames.size() < judged_at_ && !at_end)) return said;
-  std::array<std::string, 3> doubts = DoubtsOf(shown_, up_);
+  StreamDoubts doubts = DoubtsOf(shown_, up_);
   for (std::size_t kind = 0; kind < doubts.size(); ++kind) {
     if (doubts[kind].empty() || std::exchange(is_said_[kind], true)) continue;
     said.push_back(std::move(doubts[kind]));

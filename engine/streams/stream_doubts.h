@@ -16,10 +16,14 @@ namespace etude {
 /// if the user states it (StreamOptions::up).
 std::optional<UpRule> StatedUp(const StreamRecording& recording, const StreamOptions& options);
 
-/// Returns texts for users about what looks wrong with the body of a stream, one for each kind of doubt, or "": the
-/// body stands along another axis than the one that `up` states (FindUp, not judged without `up`); left and right
-/// joints are exchanged (DescribeExchangedJoints); the feet point backwards. Joints that are not tracked do not count.
-std::array<std::string, 3> DoubtsOf(const SkeletonStream& stream, const std::optional<UpRule>& up);
+/// One text for each kind of doubt about a stream, or "".
+using StreamDoubts = std::array<std::string, 4>;
+
+/// Returns texts for users about what looks wrong with the body of a stream: the body stands along another axis than
+/// the one that `up` states (FindUp, not judged without `up`); left and right joints are exchanged
+/// (DescribeExchangedJoints); the feet point backwards; the body is not as tall as a person (DescribeImpossibleHeight).
+/// Joints that are not tracked do not count.
+StreamDoubts DoubtsOf(const SkeletonStream& stream, const std::optional<UpRule>& up);
 
 /// Finds the doubts about a live stream: judges it when it has shown a body for 1, 2, 4, … 32 s.
 class LiveDoubts {
@@ -34,7 +38,7 @@ class LiveDoubts {
   std::optional<UpRule> up_;
   SkeletonStream shown_;   // the frames with a body so far, and one for each gap
   std::size_t judged_at_;  // the number of frames at which the stream is judged next
-  std::array<bool, 3> is_said_{};
+  std::array<bool, std::tuple_size_v<StreamDoubts>> is_said_{};
 };
 
 }  // namespace etude

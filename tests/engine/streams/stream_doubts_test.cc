@@ -33,7 +33,7 @@ BodyMotion WithYDown(BodyMotion motion) {
   return motion;
 }
 
-std::array<std::string, 3> DoubtsOfFile(const std::string& text, const StreamOptions& options = {}) {
+StreamDoubts DoubtsOfFile(const std::string& text, const StreamOptions& options = {}) {
   const auto recording = ReadStreamRecording(text, "s").value();
   return DoubtsOf(MakeStream(recording, "s", options).value().stream, StatedUp(recording, options));
 }
@@ -65,13 +65,23 @@ constexpr const char* kAlongZ = "the body stands along Z, but Y is the conventio
 
 TEST(StreamDoubts, ABodyAlongAnotherAxisThanTheFormatsIsDoubted) {
   const BodyMotion wave = testing::WavingMotion(90);
-  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(wave)), ElementsAre("", "", ""));
-  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(WithZUp(wave))), ElementsAre(kAlongZ, "", ""));
+  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(wave)), ElementsAre("", "", "", ""));
+  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(WithZUp(wave))), ElementsAre(kAlongZ, "", "", ""));
   EXPECT_THAT(DoubtsOfFile(WriteJointCsv(WithYDown(wave)))[0], StartsWith("the body stands along −Y, but Y is"));
   EXPECT_THAT(DoubtsOfFile(WriteTrc(JointMarkers(WithZUp(wave), 0), "s"))[0],
               "the body stands along Z, but Y is the convention of Etude's own joints; --up sets another axis");
   // The axis that the user states is not judged.
-  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(WithZUp(wave)), {.up = UpAxis::kY}), ElementsAre("", "", ""));
+  EXPECT_THAT(DoubtsOfFile(WriteJointCsv(WithZUp(wave)), {.up = UpAxis::kY}), ElementsAre("", "", "", ""));
+}
+
+TEST(StreamDoubts, ABodyThatIsNotAsTallAsAPersonIsDoubted) {
+  BodyMotion inches = testing::WavingMotion(90);
+  for (BodyPose& pose : inches.poses) {
+    for (glm::dvec3& joint : pose.joints) joint /= 0.0254;
+  }
+  const std::string doubt = DoubtsOfFile(WriteJointCsv(inches))[3];
+  EXPECT_THAT(doubt, AllOf(StartsWith("the body is 6"), HasSubstr(" m tall, which is not a person's height")));
+  EXPECT_THAT(Listen(WriteJointCsv(inches)).remarks, ::testing::Contains(std::pair(31, doubt)));
 }
 
 TEST(StreamDoubts, TheStatedAxisBecomesYInFilesAndLive) {
