@@ -18,6 +18,16 @@ namespace etude {
 namespace {
 
 constexpr double kToMm = 1000;
+constexpr double kFarBetter = 0.1, kMin_mm = 50;  // of mean errors: how much a change must remove, and from how large
+
+/// Returns the mean joint error, millimetres, of the answer after one change of all positions. Answer and truth must
+/// both show some joint.
+double MeanErrorAfter(const EvaluatedPair& pair, const Similarity& change) {
+  FrameFits fits;
+  fits.fits = {change};
+  fits.length = pair.found.FrameCount();
+  return *MeanJointErrorMm(pair, fits);
+}
 
 /// Returns a doubt if one root stays at the origin and the other one does not; otherwise "".
 std::string DoubtOnRoots(const EvaluatedPair& pair) {
@@ -39,7 +49,7 @@ std::string DoubtOnRoots(const EvaluatedPair& pair) {
 /// Returns a doubt if the answer fits far better with other axes; otherwise "". If `has_doubts`, one of the files has
 /// doubts, which usually explain another up axis.
 std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
-  constexpr double kNearAxis = 0.99, kFarBetter = 0.1, kMin_mm = 50;
+  constexpr double kNearAxis = 0.99;
   const auto fit = Fit(MomentsOf(pair.found.positions, pair.truth.positions), false);
   if (!fit) return "";
   // Name, for each axis of the answer, the axis of the truth along which it lies.
@@ -57,18 +67,25 @@ std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
     }
   }
   if (!is_changed || named < 3 || (is_up_changed && has_doubts)) return "";
-  const auto mean_mm = [&](const Similarity& change) {
-    FrameFits fits;
-    fits.fits = {change};
-    fits.length = pair.found.FrameCount();
-    return *MeanJointErrorMm(pair, fits);  // the fit has used at least three joints that are seen in both
-  };
-  const double before = mean_mm({}), after = mean_mm(*fit);
+  const double before = MeanErrorAfter(pair, {}), after = MeanErrorAfter(pair, *fit);
   if (before < kMin_mm || after > kFarBetter * before) return "";
   return fmt::format(
       "the answer's axes X, Y, Z seem to point along the truth's {}: with these axes, and moved, its mean error is "
       "{:.3g} mm instead of {:.3g}",
       axes, after, before);
+}
+
+/// Returns a doubt if the answer fits far better at another place; otherwise "".
+std::string DoubtOnPlace(const EvaluatedPair& pair) {
+  const PointMoments moments = MomentsOf(pair.found.positions, pair.truth.positions);
+  if (moments.count == 0) return "";
+  const glm::dvec3 away = moments.mean - moments.target_mean;
+  const double before = MeanErrorAfter(pair, {}), after = MeanErrorAfter(pair, {.translation = -away});
+  if (before < kMin_mm || after > kFarBetter * before) return "";
+  return fmt::format(
+      "all of the answer is displaced by ({:.3f}, {:.3f}, {:.3f}) m: without this, its mean error is {:.3g} mm instead "
+      "of {:.3g}; do both files have the same origin and floor?",
+      away.x, away.y, away.z, after, before);
 }
 
 /// Compares distances between joints, on which a file's origin, axes and root have no effect. At most eight joints and
@@ -139,7 +156,7 @@ class DistanceComparison {
 
 /// Returns a doubt if the answer fits far better at other times; otherwise "".
 std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_side, double start_s) {
-  constexpr double kFarBetter = 0.5, kMin_m = 0.01, kMinCompared = 0.5, kOtherLength = 0.05;
+  constexpr double kBetter = 0.5, kMin_m = 0.01, kMinCompared = 0.5, kOtherLength = 0.05;
   constexpr std::size_t kMinFrames = 5;
   const RawMotion &truth = true_side.motion, &answer = found_side.motion;
   if (std::min(truth.FrameCount(), answer.FrameCount()) < kMinFrames) return "";
@@ -162,7 +179,7 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
   const double least_m = std::ranges::min(rms_m);
   int best = 0;
   double best_m = paired.rms_m;
-  for (int size = reach; size > 0 && least_m < kFarBetter * paired.rms_m; --size) {
+  for (int size = reach; size > 0 && least_m < kBetter * paired.rms_m; --size) {
     for (const int shift : {-size, size}) {
       if (rms_m[static_cast<std::size_t>(reach + shift)] > kNearlyAsWell * least_m) continue;
       best = shift;
@@ -176,7 +193,7 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
   if (std::abs(rate_hz / answer.rate_hz - 1) > kOtherLength) {
     const auto spread = comparison.Compare([&](double f) { return f * answer_steps / truth_steps; });
     const auto still = comparison.Compare([](double) { return 0.0; });  // how much the truth itself varies
-    if (spread.rms_m < kFarBetter * std::min(still.rms_m, best_m)) {
+    if (spread.rms_m < kBetter * std::min(still.rms_m, best_m)) {
       return fmt::format(
           "spread over the whole truth, the answer's frames fit far better: is its rate about {:.0f} Hz instead of "
           "{:.4g}?",
@@ -207,6 +224,7 @@ std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide&
                                       double start_s) {
   const bool has_doubts = !truth.motion.doubts.empty() || !answer.motion.doubts.empty();
   std::vector<std::string> doubts{DoubtOnRoots(matched.pair), DoubtOnAxes(matched.pair, has_doubts)};
+  if (doubts[0].empty() && doubts[1].empty()) doubts.push_back(DoubtOnPlace(matched.pair));
   if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, start_s));
   std::erase(doubts, "");
   return doubts;
