@@ -77,11 +77,12 @@ std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
 
 /// Returns a doubt if the answer fits far better at another place; otherwise "".
 std::string DoubtOnPlace(const EvaluatedPair& pair) {
+  constexpr double kSmallPart = 0.04;
   const PointMoments moments = MomentsOf(pair.found.positions, pair.truth.positions);
   if (moments.count == 0) return "";
   const glm::dvec3 away = moments.mean - moments.target_mean;
   const double before = MeanErrorAfter(pair, {}), after = MeanErrorAfter(pair, {.translation = -away});
-  if (before < kMin_mm || after > kFarBetter * before) return "";
+  if (before < kMin_mm || after > kSmallPart * before) return "";
   return fmt::format(
       "all of the answer is displaced by ({:.3f}, {:.3f}, {:.3f}) m: without this, its mean error is {:.3g} mm instead "
       "of {:.3g}; do both files have the same origin and floor?",
