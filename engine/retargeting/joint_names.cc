@@ -44,6 +44,7 @@ constexpr LimbNames kArmSchemes[] = {
     {{"armupper", "armlower", "handwrist"}},     // Meta Quest
     {{"uparm", "lowarm", "wrist"}},              // Meta's MHR
     {{"shoulder", "elbow", "radiocarpal"}},      // H-Anim 2
+    {{"sjc", "ejc", "wjc"}},                     // joint centres that laboratories compute
     {{"腕", "ひじ", "手首"}, kJapanese},         // MikuMikuDance
     {{"腕", "肘", "手首"}, kJapanese},
     {{"上腕", "前腕", "手"}, kJapanese},
@@ -83,6 +84,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"hip", "walkerknee", "ankle"}},          // OpenSim's joints
     {{"upperleg", "lowerleg", "footankle"}},   // Meta Quest
     {{"hip", "knee", "talocrural"}},           // H-Anim 2
+    {{"hjc", "kjc", "ajc"}},                   // joint centres that laboratories compute
     {{"足", "ひざ", "足首"}, kJapanese},       // MikuMikuDance
     {{"足", "膝", "足首"}, kJapanese},
     {{"太もも", "すね", "足"}, kJapanese},

@@ -99,6 +99,7 @@ std::vector<MarkerSet> MakeSets() {
                            {{Role::kLeftShoulder, {"?sho"}},
                             {Role::kLeftElbow, {"?elb"}},
                             {Role::kLeftWrist, {"?wra", "?wrb"}},
+                            {Role::kLeftWrist, {"?wri"}},
                             {Role::kLeftHand, {"?fin"}},
                             {Role::kLeftKnee, {"?kne"}},
                             {Role::kLeftAnkle, {"?ank"}},
@@ -109,7 +110,14 @@ std::vector<MarkerSet> MakeSets() {
   gait.wands = {"lthi", "rthi", "ltib", "rtib"};
   gait.has_skin_limbs = gait.has_skin_shoulders = true;
   gait.rank = 1;
-  sets.push_back(std::move(gait));
+  sets.push_back(gait);
+  // The same markers under the names of CMU's recordings.
+  MarkerSet waist = std::move(gait);
+  waist.name = "Plug-in Gait with CMU's waist";
+  waist.key = "cmu";
+  waist.pelvis = {"lfwt", "rfwt", "lbwt", "rbwt"};
+  waist.wands = {"lthi", "rthi", "lshn", "rshn"};
+  sets.push_back(std::move(waist));
   return sets;
 }
 
@@ -119,11 +127,21 @@ std::vector<std::string> KneeMarkers(const MarkerSet& set) {
   return rule == set.rules.end() ? std::vector<std::string>{} : rule->markers;
 }
 
-/// Chooses among MarkerSets.
+/// Returns true if the markers are Etude's own joints, some of which may be missing: ten or more of their names, with
+/// one that no other set has.
+bool AreOwnJoints(const MarkerColumns& columns) {
+  constexpr std::ptrdiff_t kMinNames = 10;
+  const auto has = [&](Role role) { return columns.contains(RoleName(role)); };
+  return (has(Role::kHipCentre) || has(Role::kShoulderCentre)) && std::ranges::count_if(AllRoles(), has) >= kMinNames;
+}
+
+/// Chooses among MarkerSets. Other programs also write names such as "left_hip", so Etude's set is only chosen if the
+/// user wants it, or if AreOwnJoints.
 ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
   std::vector<std::pair<const MarkerSet*, std::size_t>> complete;
   for (const MarkerSet& set : MarkerSets()) {
     if (!MissingFrom(set, columns).empty()) continue;
+    if (set.is_own && wanted != set.key && !AreOwnJoints(columns)) continue;
     const auto tells = [&](Role role) { return Determines(set, columns, role); };
     complete.emplace_back(&set, static_cast<std::size_t>(std::ranges::count_if(AllRoles(), tells)));
   }
@@ -161,19 +179,33 @@ std::optional<MarkerSet> SetOfSkeletonNames(const MarkerColumns& columns, std::s
       set.rules.push_back({limb.roles[i], {keys[static_cast<std::size_t>(found.joints[i])]}});
     }
   }
+  // Add the other joints whose names are clear: only one marker has the name, and it is in no limb.
+  const auto add = [&](Role role, std::span<const std::string_view> words, std::optional<Side> side) {
+    for (const std::string_view word : words) {
+      const std::vector<NamedJoint> found = side ? known.Find(word, *side) : known.Find(word);
+      if (found.empty()) continue;
+      const std::vector<std::string> marker{keys[static_cast<std::size_t>(found.front().joint)]};
+      if (found.size() == 1 && std::ranges::count(set.rules, marker, &MarkerRule::markers) == 0) {
+        set.rules.push_back({role, marker});
+        return;
+      }
+    }
+  };
+  constexpr std::string_view kPelvis[] = {"hips", "pelvis", "hip", "waist"}, kHand[] = {"hand"},
+                             kToes[] = {"toe", "toes", "toebase", "bigtoe", "ball", "foot"};
+  add(Role::kHipCentre, kPelvis, std::nullopt);
+  add(Role::kShoulderCentre, NeckNames(), std::nullopt);
+  add(Role::kHead, HeadNames(), std::nullopt);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const bool is_left = side == Side::kLeft;
+    add(is_left ? Role::kLeftFoot : Role::kRightFoot, kToes, side);
+    add(is_left ? Role::kLeftHand : Role::kRightHand, kHand, side);
+  }
   return set;
 }
 
 bool HasEveryName(const MarkerSet& set, const MarkerColumns& columns) {
   return std::ranges::all_of(set.rules, [&](const MarkerRule& rule) { return HasAll(columns, rule.markers); });
-}
-
-/// Returns true if the markers are Etude's own joints, some of which may be missing: ten or more of their names, with
-/// one that no other set has.
-bool AreOwnJoints(const MarkerColumns& columns) {
-  constexpr std::ptrdiff_t kMinNames = 10;
-  const auto has = [&](Role role) { return columns.contains(RoleName(role)); };
-  return (has(Role::kHipCentre) || has(Role::kShoulderCentre)) && std::ranges::count_if(AllRoles(), has) >= kMinNames;
 }
 
 void ReplaceRule(const MarkerRule& rule, MarkerSet& set) {
@@ -205,6 +237,7 @@ void TakeJointsOfDataSet(const MarkerColumns& columns, std::span<const std::stri
   }
   if (!is_changed) return;
   set.name = fmt::format("joints of {}, found by name", known->data_set);
+  set.is_own = false;
   chosen.made = std::move(set);
 }
 
@@ -267,8 +300,13 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
     if (AreOwnJoints(columns)) {
       chosen.known = &MarkerSets().front();
     } else {
+      const auto told = [&](const MarkerSet& set) {
+        return std::ranges::count_if(AllRoles(), [&](Role role) { return Determines(set, columns, role); });
+      };
       chosen.made = SetOfSkinNames(columns, names);
-      if (!chosen.made && !may_be_skin) chosen.made = SetOfSkeletonNames(columns, names);
+      if (!chosen.made) chosen.made = SetOfSkeletonNames(columns, names);
+      const bool is_made = chosen.made && !chosen.made->has_skin_limbs;
+      if (is_made && may_be_skin && told(*chosen.made) <= told(*chosen.known)) chosen.made.reset();
     }
   }
   if (wanted.empty()) TakeJointsOfDataSet(columns, names, chosen);

@@ -82,7 +82,7 @@ struct ChosenSet {
 /// chosen. If `wanted` is "", chooses the set with the highest rank; of equal ranks, the set that determines the most
 /// joints. If no set is complete, or only a set of joints that lacks some of its names, makes the set of skin markers
 /// (SetOfSkinNames; it may be incomplete). If the names do not show skin markers either, makes a set if a naming scheme
-/// of skeletons (joint_names.h) names all needed joints.
+/// of skeletons (joint_names.h) names all needed joints, and more joints than the chosen set determines.
 /// Markers with the names of Etude's own joints keep their meaning: their set is then chosen, although it is
 /// incomplete. If the names are those of a data set (FindDataSet), its joints replace the rules of the chosen set,
 /// unless the user wants a set or the set is of markers on the skin. `roles` states which markers the user takes as

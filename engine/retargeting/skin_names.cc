@@ -29,6 +29,7 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftShoulder, "acromion"},
     {Role::kLeftShoulder, "acr"},
     {Role::kLeftShoulder, "sho"},
+    {Role::kLeftShoulder, "sae"},
     {Role::kLeftElbow, "elbow", "elbowmedial"},
     {Role::kLeftElbow, "elbow", "melbow"},
     {Role::kLeftElbow, "lelbow", "melbow"},
@@ -36,12 +37,14 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftElbow, "lel", "mel"},
     {Role::kLeftElbow, "lee", "mee"},
     {Role::kLeftElbow, "hle", "hme"},
+    {Role::kLeftElbow, "armlatepicondyle", "armmedepicondyle"},
     {Role::kLeftElbow, "elbow"},
     {Role::kLeftWrist, "wristlat", "wristmed"},
     {Role::kLeftWrist, "lwrist", "mwrist"},
     {Role::kLeftWrist, "radius", "ulna"},
     {Role::kLeftWrist, "faradius", "faulna"},
     {Role::kLeftWrist, "rsp", "usp"},
+    {Role::kLeftWrist, "radialstyloid", "ulnarstyloid"},
     {Role::kLeftWrist, "wrist"},
     {Role::kLeftKnee, "knee", "kneemedial"},
     {Role::kLeftKnee, "knee", "mknee"},
@@ -49,6 +52,7 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftKnee, "lfc", "mfc"},
     {Role::kLeftKnee, "lek", "mek"},
     {Role::kLeftKnee, "fle", "fme"},
+    {Role::kLeftKnee, "kneelatepicondyle", "kneemedepicondyle"},
     {Role::kLeftKnee, "knee"},
     {Role::kLeftKnee, "kneelat"},
     {Role::kLeftKnee, "lfc"},
@@ -59,18 +63,20 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftAnkle, "lmal", "mmal"},
     {Role::kLeftAnkle, "lm", "mm"},
     {Role::kLeftAnkle, "fal", "tam"},
+    {Role::kLeftAnkle, "latmalleolus", "medmalleolus"},
     {Role::kLeftAnkle, "ankle"},
     {Role::kLeftAnkle, "anklelat"},
     {Role::kLeftAnkle, "lmal"},
     {Role::kLeftAnkle, "lm"},
     {Role::kLeftFoot, "toe"},
     {Role::kLeftFoot, "toetip"},
+    {Role::kLeftFoot, "fm2"},
     {Role::kLeftHand, "fin"},
 };
 constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
 constexpr std::string_view kHipCentres[] = {"hipjc", "hjc", "hipjointcentre", "hipjointcenter"};
 constexpr std::string_view kInnerKnees[] = {"kneemedial", "kneemed", "mknee", "mfc", "mek", "fme"};
-constexpr std::string_view kFrontSpines[] = {"asis", "asi"}, kBackSpines[] = {"psis", "psi"};
+constexpr std::string_view kFrontSpines[] = {"asis", "asi", "ias"}, kBackSpines[] = {"psis", "psi", "ips"};
 constexpr std::string_view kSacra[] = {"sacral", "vsacral", "sacrum", "sacr", "vsac"};
 constexpr std::string_view kThigh[] = {"thigh"}, kKnee[] = {"knee"}, kShank[] = {"shank"};
 
@@ -155,6 +161,7 @@ std::optional<MarkerSet> SetOfSkinNames(const MarkerColumns& columns, std::span<
   // The middle of the body: the mean of front and back.
   for (const auto& [role, front, back] :
        {SkinNames{Role::kHead, "fronthead", "rearhead"}, SkinNames{Role::kShoulderCentre, "clav", "c7"},
+        SkinNames{Role::kShoulderCentre, "sjn", "cv7"}, SkinNames{Role::kShoulderCentre, "ij", "c7spinalprocess"},
         SkinNames{Role::kSpine, "strn", "t10"}}) {
     const std::string one = markers.Find(std::array{front}, std::nullopt);
     const std::string other = markers.Find(std::array{back}, std::nullopt);

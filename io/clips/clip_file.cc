@@ -221,6 +221,7 @@ Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::
   ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), std::move(clock), path));
   MarkerOptions told = ToldOfMarkers(options, is_known ? CameraUp() : ArrayUp());
   told.layout = std::move(joints.layout);
+  if (told.set.empty()) told.set = "etude";  // the layout has named the joints
   told.is_of_camera = is_known || joints.is_of_camera;
   ASSIGN_OR_RETURN(auto file,
                    FileOfMarkers(is_known ? ClipFormat::kNpz : ClipFormat::kNpy, std::move(motion), path, told));
