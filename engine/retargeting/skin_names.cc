@@ -30,6 +30,7 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftShoulder, "acr"},
     {Role::kLeftShoulder, "sho"},
     {Role::kLeftShoulder, "sae"},
+    {Role::kLeftShoulder, "shouldertop"},
     {Role::kLeftElbow, "elbow", "elbowmedial"},
     {Role::kLeftElbow, "elbow", "melbow"},
     {Role::kLeftElbow, "lelbow", "melbow"},
@@ -38,6 +39,8 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftElbow, "lee", "mee"},
     {Role::kLeftElbow, "hle", "hme"},
     {Role::kLeftElbow, "armlatepicondyle", "armmedepicondyle"},
+    {Role::kLeftElbow, "elbowout", "elbowin"},
+    {Role::kLeftElbow, "elbowout"},
     {Role::kLeftElbow, "elbow"},
     {Role::kLeftWrist, "wristlat", "wristmed"},
     {Role::kLeftWrist, "lwrist", "mwrist"},
@@ -45,6 +48,7 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftWrist, "faradius", "faulna"},
     {Role::kLeftWrist, "rsp", "usp"},
     {Role::kLeftWrist, "radialstyloid", "ulnarstyloid"},
+    {Role::kLeftWrist, "wristout", "wristin"},
     {Role::kLeftWrist, "wrist"},
     {Role::kLeftKnee, "knee", "kneemedial"},
     {Role::kLeftKnee, "knee", "mknee"},
@@ -53,6 +57,8 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftKnee, "lek", "mek"},
     {Role::kLeftKnee, "fle", "fme"},
     {Role::kLeftKnee, "kneelatepicondyle", "kneemedepicondyle"},
+    {Role::kLeftKnee, "kneeout", "kneein"},
+    {Role::kLeftKnee, "kneeout"},
     {Role::kLeftKnee, "knee"},
     {Role::kLeftKnee, "kneelat"},
     {Role::kLeftKnee, "lfc"},
@@ -64,6 +70,8 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftAnkle, "lm", "mm"},
     {Role::kLeftAnkle, "fal", "tam"},
     {Role::kLeftAnkle, "latmalleolus", "medmalleolus"},
+    {Role::kLeftAnkle, "ankleout", "anklein"},
+    {Role::kLeftAnkle, "ankleout"},
     {Role::kLeftAnkle, "ankle"},
     {Role::kLeftAnkle, "anklelat"},
     {Role::kLeftAnkle, "lmal"},
@@ -71,12 +79,15 @@ constexpr SkinNames kSkinNames[] = {
     {Role::kLeftFoot, "toe"},
     {Role::kLeftFoot, "toetip"},
     {Role::kLeftFoot, "fm2"},
+    {Role::kLeftFoot, "toein", "toeout"},
     {Role::kLeftHand, "fin"},
+    {Role::kLeftHand, "handout"},
 };
 constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
 constexpr std::string_view kHipCentres[] = {"hipjc", "hjc", "hipjointcentre", "hipjointcenter"};
 constexpr std::string_view kInnerKnees[] = {"kneemedial", "kneemed", "mknee", "mfc", "mek", "fme"};
-constexpr std::string_view kFrontSpines[] = {"asis", "asi", "ias"}, kBackSpines[] = {"psis", "psi", "ips"};
+constexpr std::string_view kFrontSpines[] = {"asis", "asi", "ias", "waist/front"};
+constexpr std::string_view kBackSpines[] = {"psis", "psi", "ips", "waist/back"};
 constexpr std::string_view kSacra[] = {"sacral", "vsacral", "sacrum", "sacr", "vsac"};
 constexpr std::string_view kThigh[] = {"thigh"}, kKnee[] = {"knee"}, kShank[] = {"shank"};
 
@@ -89,12 +100,16 @@ class NamedMarkers {
   }
 
   /// Returns the key of the first of the names that exists on a side, or in the middle of the body; "" if none exists.
+  /// Of "waist/front", the word before the side must be "waist".
   std::string Find(Words words, std::optional<Side> side) const {
     for (const std::string_view word : words) {
-      for (const NamedJoint& found : side ? known_.Find(word, *side) : known_.Find(word)) {
+      const std::size_t slash = word.find('/');
+      const std::string_view before = slash == word.npos ? "" : word.substr(0, slash);
+      const std::string_view name = slash == word.npos ? word : word.substr(slash + 1);
+      for (const NamedJoint& found : side ? known_.Find(name, *side) : known_.Find(name)) {
         // "R_LElbow" is not the left elbow.
         const bool is_of_side = std::ranges::find(kSides, found.prefix) != std::end(kSides);
-        if (!is_of_side) return keys_[static_cast<std::size_t>(found.joint)];
+        if (before.empty() ? !is_of_side : found.prefix == before) return keys_[static_cast<std::size_t>(found.joint)];
       }
     }
     return "";
@@ -162,7 +177,7 @@ std::optional<MarkerSet> SetOfSkinNames(const MarkerColumns& columns, std::span<
   for (const auto& [role, front, back] :
        {SkinNames{Role::kHead, "fronthead", "rearhead"}, SkinNames{Role::kShoulderCentre, "clav", "c7"},
         SkinNames{Role::kShoulderCentre, "sjn", "cv7"}, SkinNames{Role::kShoulderCentre, "ij", "c7spinalprocess"},
-        SkinNames{Role::kSpine, "strn", "t10"}}) {
+        SkinNames{Role::kShoulderCentre, "chest", "backtop"}, SkinNames{Role::kSpine, "strn", "t10"}}) {
     const std::string one = markers.Find(std::array{front}, std::nullopt);
     const std::string other = markers.Find(std::array{back}, std::nullopt);
     if (!one.empty() && !other.empty()) set.rules.push_back({role, {one, other}});

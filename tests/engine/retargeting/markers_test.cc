@@ -702,7 +702,8 @@ TEST(Markers, OfNoKnownSetAreRefusedWithWhatIsLacking) {
               HasSubstr("belong to no known marker set (nearest: Etude's joints lacks left_knee); allowed: "));
 }
 
-/// Markers with the joint names of Bandai-Namco's skeleton. The neck is not one of the needed joints.
+/// Markers with the joint names of Bandai-Namco's skeleton. The neck is not one of the needed joints, but has a clear
+/// name.
 const std::vector<Placed> kOfASkeleton = {
     {"UpperArm_L", Role::kLeftShoulder},  {"LowerArm_L", Role::kLeftElbow},  {"Hand_L", Role::kLeftWrist},
     {"UpperLeg_L", Role::kLeftHip},       {"LowerLeg_L", Role::kLeftKnee},   {"Foot_L", Role::kLeftAnkle},
@@ -713,13 +714,143 @@ const std::vector<Placed> kOfASkeleton = {
 TEST(Markers, WithTheNamesOfASkeletonsJointsAreABody) {
   ASSERT_OK(bodies, FindMarkerBodies(Take(kOfASkeleton), "a.trc", {.keeps_shown = true}));
   const MarkerBody& body = bodies->front();
-  EXPECT_THAT(body.Note(), HasSubstr("joint names of a skeleton; placed by rule: hip_centre, spine, shoulder_centre"));
+  EXPECT_THAT(body.Note(), HasSubstr("joint names of a skeleton; placed by rule: hip_centre, spine, head"));
   for (const Role role : kNeededJoints) {
     EXPECT_NEAR(body.motion.poses[7][role].x, StandingAt(7)[role].x, 1e-12);
     EXPECT_EQ(body.shown.At(7, body.shown.roles[Index(role)]), StandingAt(7)[role]);
   }
   EXPECT_EQ(body.shown.joints[body.shown.roles[Index(Role::kLeftElbow)]], "LowerArm_L") << "its own name";
-  EXPECT_EQ(body.shown.roles[Index(Role::kShoulderCentre)], -1);
+  EXPECT_EQ(body.shown.At(7, body.shown.roles[Index(Role::kShoulderCentre)]), StandingAt(7)[Role::kShoulderCentre]);
+  // A name that two markers have is not clear.
+  std::vector<Placed> twice = kOfASkeleton;
+  twice.push_back({"Neck1", Role::kHead});
+  ASSERT_OK(unclear, FindMarkerBodies(Take(twice), "a.trc", {.keeps_shown = true}));
+  EXPECT_EQ(unclear->front().shown.roles[Index(Role::kShoulderCentre)], -1);
+}
+
+/// The names of SMPL's joints, of MediaPipe's keypoints and of Etude's own joints begin alike. Only the middle of the
+/// body tells that a file is Etude's, which has Y up.
+TEST(Markers, OfOtherProgramsWithNamesLikeEtudesAreNotEtudes) {
+  std::vector<Placed> limbs;
+  for (const Role role : kNeededJoints) limbs.push_back({std::string(RoleName(role)), role});
+  const auto with = [&](std::vector<Placed> more) {
+    more.insert(more.begin(), limbs.begin(), limbs.end());
+    const auto bodies = FindMarkerBodies(Take(more), "a.c3d");
+    EXPECT_TRUE(bodies) << ToString(bodies.error());
+    return bodies->front();
+  };
+  const MarkerBody keypoints = with({{"nose", Role::kHead}, {"left_ear", Role::kHead}, {"right_ear", Role::kHead}});
+  EXPECT_THAT(keypoints.Note(), ::testing::StartsWith("COCO; "));
+  EXPECT_EQ(keypoints.up.evidence, UpEvidence::kPosture);
+  const MarkerBody joints = with({{"pelvis", Role::kHipCentre},
+                                  {"neck", Role::kShoulderCentre},
+                                  {"head", Role::kHead},
+                                  {"left_foot", Role::kLeftFoot},
+                                  {"right_foot", Role::kRightFoot}});
+  EXPECT_EQ(joints.up.evidence, UpEvidence::kPosture);
+  EXPECT_THAT(joints.Note(), HasSubstr("placed by rule: spine, left_hand, right_hand"));
+  const MarkerBody own = with({{"hip_centre", Role::kHipCentre}});
+  EXPECT_THAT(own.Note(), ::testing::StartsWith("Etude's joints; "));
+  EXPECT_NE(own.up.evidence, UpEvidence::kPosture);
+}
+
+/// Markers of one side and of the pelvis, as laboratories and devices name them; '?' stands for the side.
+struct SideNames {
+  const char *set, *left, *right;
+  std::vector<std::pair<const char*, Role>> limbs;
+};
+
+TEST(Markers, HaveTheNamesOfManyLaboratories) {
+  using enum Role;
+  const std::vector<SideNames> kSets = {{"skin markers (Helen Hayes)",
+                                         "L_",
+                                         "R_",  // the Istituto Ortopedico Rizzoli's, after the ISB
+                                         {{"?IAS", kLeftHip},
+                                          {"?IPS", kLeftHip},
+                                          {"?SAE", kLeftShoulder},
+                                          {"?HLE", kLeftElbow},
+                                          {"?HME", kLeftElbow},
+                                          {"?RSP", kLeftWrist},
+                                          {"?USP", kLeftWrist},
+                                          {"?FLE", kLeftKnee},
+                                          {"?FME", kLeftKnee},
+                                          {"?FAL", kLeftAnkle},
+                                          {"?TAM", kLeftAnkle},
+                                          {"?FM2", kLeftFoot}}},
+                                        {"skin markers (Helen Hayes)",
+                                         "pLeft",
+                                         "pRight",  // Xsens' points
+                                         {{"?ASI", kLeftHip},
+                                          {"?PSI", kLeftHip},
+                                          {"?Acromion", kLeftShoulder},
+                                          {"?ArmLatEpicondyle", kLeftElbow},
+                                          {"?ArmMedEpicondyle", kLeftElbow},
+                                          {"?RadialStyloid", kLeftWrist},
+                                          {"?UlnarStyloid", kLeftWrist},
+                                          {"?KneeLatEpicondyle", kLeftKnee},
+                                          {"?KneeMedEpicondyle", kLeftKnee},
+                                          {"?LatMalleolus", kLeftAnkle},
+                                          {"?MedMalleolus", kLeftAnkle},
+                                          {"?Toe", kLeftFoot}}},
+                                        {"skin markers (Helen Hayes)",
+                                         "L",
+                                         "R",  // OptiTrack's
+                                         {{"Waist?Front", kLeftHip},
+                                          {"Waist?Back", kLeftHip},
+                                          {"?ShoulderTop", kLeftShoulder},
+                                          {"?ElbowOut", kLeftElbow},
+                                          {"?WristOut", kLeftWrist},
+                                          {"?WristIn", kLeftWrist},
+                                          {"?KneeOut", kLeftKnee},
+                                          {"?AnkleOut", kLeftAnkle},
+                                          {"?ToeIn", kLeftFoot},
+                                          {"?ToeOut", kLeftFoot},
+                                          {"?HandOut", kLeftHand}}},
+                                        {"Plug-in Gait with CMU's waist",
+                                         "L",
+                                         "R",
+                                         {{"?FWT", kLeftHip},
+                                          {"?BWT", kLeftHip},
+                                          {"?SHO", kLeftShoulder},
+                                          {"?ELB", kLeftElbow},
+                                          {"?WRA", kLeftWrist},
+                                          {"?WRB", kLeftWrist},
+                                          {"?KNE", kLeftKnee},
+                                          {"?ANK", kLeftAnkle},
+                                          {"?TOE", kLeftFoot}}},
+                                        {"Plug-in Gait",
+                                         "L",
+                                         "R",  // one marker on the wrist
+                                         {{"?ASI", kLeftHip},
+                                          {"?PSI", kLeftHip},
+                                          {"?SHO", kLeftShoulder},
+                                          {"?ELB", kLeftElbow},
+                                          {"?WRI", kLeftWrist},
+                                          {"?KNE", kLeftKnee},
+                                          {"?ANK", kLeftAnkle},
+                                          {"?TOE", kLeftFoot}}},
+                                        {"joint names of a skeleton",
+                                         "L",
+                                         "R",  // joint centres that laboratories compute
+                                         {{"?HJC", kLeftHip},
+                                          {"?KJC", kLeftKnee},
+                                          {"?AJC", kLeftAnkle},
+                                          {"?SJC", kLeftShoulder},
+                                          {"?EJC", kLeftElbow},
+                                          {"?WJC", kLeftWrist}}}};
+  for (const SideNames& set : kSets) {
+    std::vector<Placed> markers;
+    for (const bool is_left : {true, false}) {
+      for (const auto& [name, role] : set.limbs) {
+        std::string text = name;
+        text.replace(text.find('?'), 1, is_left ? set.left : set.right);
+        markers.push_back({text, is_left ? role : Mirrored(role)});
+      }
+    }
+    ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.c3d"));
+    EXPECT_THAT(bodies->front().Note(), ::testing::StartsWith(set.set)) << set.limbs.front().first;
+    for (const auto& [name, role] : set.limbs) EXPECT_FALSE(bodies->front().markers[Index(role)].empty()) << name;
+  }
 }
 
 TEST(Markers, PlayTheRolesThatTheUserGives) {
