@@ -168,7 +168,7 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
   const auto paired = shifted(0);
   if (!(paired.rms_m > kMin_m) || paired.count == 0) return "";
   // Find the best shift in whole frames of the truth. A shift at the end of the range is not believed. In a motion that
-  // repeats, many shifts fit nearly as well; the smallest is taken.
+  // repeats, many shifts fit nearly as well; of these, take the best one among the neighbours of the smallest one.
   constexpr double kNearlyAsWell = 1.2;
   const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth.rate_hz));
   std::vector<double> rms_m;
@@ -178,13 +178,16 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
     rms_m.push_back(is_enough ? there.rms_m : std::numeric_limits<double>::infinity());
   }
   const double least_m = std::ranges::min(rms_m);
-  int best = 0;
+  const auto at = [&](int shift) { return rms_m[static_cast<std::size_t>(reach + shift)]; };
+  const auto fits = [&](int shift) { return std::abs(shift) <= reach && at(shift) <= kNearlyAsWell * least_m; };
+  int best = 0, smallest = 1;
   double best_m = paired.rms_m;
-  for (int size = reach; size > 0 && least_m < kBetter * paired.rms_m; --size) {
-    for (const int shift : {-size, size}) {
-      if (rms_m[static_cast<std::size_t>(reach + shift)] > kNearlyAsWell * least_m) continue;
+  while (smallest < reach && !fits(smallest) && !fits(-smallest)) ++smallest;
+  for (const int way : {-1, 1}) {
+    for (int shift = way * smallest; fits(shift) && least_m < kBetter * paired.rms_m; shift += way) {
+      if (at(shift) >= best_m) continue;
       best = shift;
-      best_m = rms_m[static_cast<std::size_t>(reach + shift)];
+      best_m = at(shift);
     }
   }
   // Spread the answer over the whole truth, as if it had another rate.
