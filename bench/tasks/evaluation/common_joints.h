@@ -23,6 +23,12 @@ struct CommonJoint {
 std::vector<CommonJoint> FindCommon(const RawMotion& truth, const RawMotion& answer, std::string_view set,
                                     std::vector<CommonJoint>& lacking);
 
+/// A truth or an answer, and its judged joints, in the order of the other side's.
+struct JudgedSide {
+  const RawMotion& motion;
+  const std::vector<int>& joints;
+};
+
 /// Returns the positions of these joints in the first `frames` frames.
 PointTracks JointColumns(const RawMotion& motion, const std::vector<int>& joints, std::size_t frames);
 

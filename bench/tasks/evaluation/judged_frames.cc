@@ -35,6 +35,19 @@ StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   return {frames / truth.rate_hz, both + kByClocks};
 }
 
+std::optional<TimeShift> FindLag(const JudgedSide& truth, const JudgedSide& answer, double start_s) {
+  // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
+  // kept.
+  const double rate_hz = answer.motion.rate_hz;
+  const auto added = static_cast<std::size_t>(std::ceil(std::max(-start_s, 0.0) * rate_hz));
+  RawMotion moved;
+  if (start_s != 0) moved = Sampled(answer.motion, rate_hz, start_s, answer.motion.FrameCount() + added);
+  const RawMotion& found = start_s != 0 ? moved : answer.motion;
+  const double truth_rate_hz = HaveSameRate(truth.motion, answer.motion) ? rate_hz : truth.motion.rate_hz;
+  return FindTimeShift(JointColumns(truth.motion, truth.joints, truth.motion.FrameCount()), truth_rate_hz,
+                       JointColumns(found, answer.joints, found.FrameCount()), rate_hz);
+}
+
 JudgedFrames FramesToJudge(const RawMotion& truth, const RawMotion& answer, double start_s) {
   constexpr double kSame = 0.01;  // tolerance, frames of the truth
   JudgedFrames frames;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/metrics/time_shift.h"
+#include "bench/tasks/evaluation/common_joints.h"
 #include "engine/motion/raw_motion.h"
 
 namespace etude {
@@ -21,6 +24,10 @@ struct StatedOffset {
 /// first frames count as simultaneous. If the rates are equal and the offset is within a tenth of a frame of a whole
 /// number of frames, it is rounded to this number.
 StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer);
+
+/// Finds the lag of the answer (FindTimeShift) that remains if the truth's first frame is paired with the answer at
+/// `start_s`, as the clocks of both files state.
+std::optional<TimeShift> FindLag(const JudgedSide& truth, const JudgedSide& answer, double start_s);
 
 /// The frames at which an answer is judged, in frames of the answer (whole numbers, which may lie outside of it) and in
 /// frames of the truth.

@@ -283,14 +283,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   const double truth_rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
   const StatedOffset clock = OffsetOf(truth, answer);
   if (lag == Lag::kFind) {
-    // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
-    // kept.
-    const std::size_t count =
-        answer.FrameCount() + static_cast<std::size_t>(std::ceil(std::max(clock.seconds, 0.0) * answer.rate_hz));
-    RawMotion moved;
-    if (clock.seconds != 0) moved = Sampled(answer, answer.rate_hz, -clock.seconds, count);
-    const PointTracks found = JointColumns(clock.seconds != 0 ? moved : answer, of_answer, count);
-    matched.lag = FindTimeShift(JointColumns(truth, of_truth, frames), truth_rate_hz, found, answer.rate_hz);
+    matched.lag = FindLag({truth, of_truth}, {answer, of_answer}, -clock.seconds);
     if (!matched.lag) {
       return Fail({answer.name},
                   "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "

@@ -12,7 +12,7 @@
 
 #include "bench/metrics/alignment.h"
 #include "bench/metrics/time_shift.h"
-#include "bench/tasks/evaluation/common_joints.h"
+#include "bench/tasks/evaluation/judged_frames.h"
 
 namespace etude {
 namespace {
@@ -205,15 +205,14 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
     }
   }
   if (best == 0 || std::abs(best) == reach) return "";
-  // A part without motion fits a body that stands still, so FindTimeShift must find a shift, too. A shift below one
-  // frame of the slower file may only come from taking the nearest frames.
-  const auto found = FindTimeShift(JointColumns(truth, true_side.joints, truth.FrameCount()), truth.rate_hz,
-                                   JointColumns(answer, found_side.joints, answer.FrameCount()), answer.rate_hz);
+  // A part without motion fits a body that stands still, so FindLag must find a shift, too. A shift below one frame of
+  // the slower file may only come from taking the nearest frames.
+  const auto found = FindLag(true_side, found_side, start_s);
   if (!found) return "";
   constexpr double kSame = 2, kLeast = 0.99;  // frames
   const double frame_s = 1 / std::min(truth.rate_hz, answer.rate_hz), coarse_s = best / truth.rate_hz;
-  const bool is_same = std::abs(found->shift_s - start_s - coarse_s) <= kSame * frame_s;
-  const double shift_s = is_same ? found->shift_s - start_s : coarse_s;
+  const bool is_same = std::abs(found->shift_s - coarse_s) <= kSame * frame_s;
+  const double shift_s = is_same ? found->shift_s : coarse_s;
   if (std::abs(shift_s) < kLeast * frame_s) return "";
   return fmt::format(
       "the answer seems to be {:.3g} s {}: with this shift, distances between joints differ by {:.3g} mm "

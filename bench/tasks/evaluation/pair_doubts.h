@@ -3,16 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/tasks/evaluation/common_joints.h"
 #include "bench/tasks/evaluation/match.h"
-#include "engine/motion/raw_motion.h"
 
 namespace etude {
-
-/// A truth or an answer, and its judged joints, in the order of the other side's.
-struct JudgedSide {
-  const RawMotion& motion;
-  const std::vector<int>& joints;
-};
 
 /// Returns doubts, as sentences for users, about whether two files describe one motion in the same way. A doubt states
 /// one change of the answer that removes most of its error. The error may then come from how a file was written:
@@ -21,9 +15,8 @@ struct JudgedSide {
 ///   (if there is a doubt about one of the files, only with Y up in both);
 /// - place: if none of these, one displacement of all positions removes 96 % of the mean joint error;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
-/// large.
-///   A shift has at least one frame and at most kMaxTimeShift_s, and FindTimeShift must find a shift, too. If a lag was
-///   already removed (`matched.lag`), times are not searched.
+///   large. A shift has at least one frame and at most kMaxTimeShift_s, and FindLag must find a shift, too. If a lag
+///   was already removed (`matched.lag`), times are not searched.
 /// Limits and method are our own. `matched` holds the judged joints frame by frame. The truth's first frame is paired
 /// with the answer at `start_s`.
 std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,

@@ -588,6 +588,11 @@ TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
               ElementsAre(AllOf(HasSubstr("the answer seems to be 0.25 s late"), HasSubstr("--lag find"))));
   EXPECT_THAT(Doubts(truth, Swaying(30, 150, 0.5), Lag::kFind), IsEmpty()) << "the lag was removed";
   EXPECT_THAT(Doubts(Swaying(120, 600, 0), Swaying(30, 150, 0.012)), IsEmpty()) << "less than a frame";
+  // The lag adds to the offset of the files' clocks, which may be longer than the longest lag.
+  RawMotion begin = Swaying(30, 300, 0), later = Swaying(30, 210, 0.5 - 3);
+  begin.start_s = 60;
+  later.start_s = 63;
+  EXPECT_THAT(Doubts(begin, later), ElementsAre(HasSubstr("the answer seems to be 0.5 s late")));
 }
 
 TEST(DoubtsOnPair, OfAMotionThatRepeatsNameTheSmallestShift) {
