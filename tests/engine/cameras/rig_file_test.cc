@@ -160,6 +160,8 @@ TEST(RigFile, RefusesAMirroredCameraInEveryFormatWithAMatrix) {
   std::string keys = toml.substr(4, toml.size() - 5);
   std::ranges::replace(keys, '\n', ',');
   EXPECT_TRUE(ReadRig("a = {" + keys + "}\n", "rig")) << "a table in one line";
+  EXPECT_THAT(testing::Refusal(ReadRig("a = {" + testing::Replaced(keys, "[0, 0, 4]", "[0, 0]") + "}\n", "rig")),
+              HasSubstr("camera a: translation has 2 numbers"));
   EXPECT_THAT(testing::Refusal(
                   ReadRig(testing::Replaced(toml, "[0, 1, 0], [0, 0, 1]]\nt", "[0, -1, 0], [0, 0, 1]]\nt"), "rig")),
               HasSubstr(said));

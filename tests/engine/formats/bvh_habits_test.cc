@@ -199,6 +199,7 @@ TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
        {std::pair("0.017", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.2 s sho"),
         {"0.016", "1 / 60 s, rounded. At 60 Hz the 600 frames would last 0.4 s longer"},
         {"0.0083", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.02 s longer"},
+        {"0.008", "1 / 120 s, rounded. At 120 Hz the 600 frames would last 0.2 s longer"},
         {"0.042", "1 / 24 s, rounded. At 24 Hz the 600 frames would last 0.2 s shorter"},
         {"0.0334", "it may be 1 / 29.97 s, rounded."},
         {"0.033000", "1 / 30 s, rounded. At 30 Hz the 600 frames would last 0.2 s longer"}}) {
@@ -207,8 +208,8 @@ TEST(BvhHabits, FrameTimesOfFewDigitsAreTakenAndSaid) {
     EXPECT_THAT(remarks[0], ::testing::HasSubstr(likely));
   }
   // The controls: usual rates and whole rates, enough digits, a drift of less than half a frame, and a stated rate.
-  for (const char* time : {"0.04", "0.02", "0.05", "0.01", "0.1", "0.0125", "0.040000", "0.0333333", ".0083333",
-                           "0.0333667", "0.041708"}) {
+  for (const char* time : {"0.04", "0.02", "0.05", "0.01", "0.1", "0.0125", "0.040000", "0.008000", "0.0333333",
+                           ".0083333", "0.0333667", "0.041708"}) {
     EXPECT_THAT(RemarksOnFrameTime(time, 600), ::testing::IsEmpty()) << time;
   }
   EXPECT_THAT(RemarksOnFrameTime("0.0333", 400), ::testing::IsEmpty()) << "0.4 frames";

@@ -231,6 +231,8 @@ TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
   EXPECT_EQ(flags->width, 640);
   const auto scores = ReadKeypoints(Write("scores.json", coco("0.25")), "");
   EXPECT_DOUBLE_EQ(scores->frames[0][0][Landmark::kNose].confidence, 0.25);
+  const auto above = ReadKeypoints(Write("above.json", coco("1.05")), "");
+  EXPECT_DOUBLE_EQ(above->frames[0][0][Landmark::kNose].confidence, 1) << "a score, no flag";
 }
 
 TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName) {
