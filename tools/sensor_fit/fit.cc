@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "engine/base/angles.h"
 #include "engine/document/fields.h"
@@ -277,7 +278,13 @@ JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& 
   const BodyMotion motion = WithoutShiver(WholeMotion(real));
   const Camera sensor = SensorOf(real, motion, options.view);
   JointRecording simulated = RecordingOf(SenseSkeleton(motion, sensor, {}, options, world), sensor.p_WC);
-  simulated.late_s = real.recording.late_s;  // match.truth has the poses of these times
+  // match.truth has the poses of the recording's times. The sensor reports them Lag() frames later, the first one until
+  // then.
+  if (!real.recording.late_s.empty()) {
+    simulated.late_s.assign(static_cast<std::size_t>(options.Lag()), real.recording.late_s.front());
+    std::ranges::copy(real.recording.late_s, std::back_inserter(simulated.late_s));
+    simulated.late_s.resize(simulated.frames.size());
+  }
   for (std::size_t t = 0; t < simulated.frames.size(); ++t) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       if (!real.match.truth[t][j]) simulated.frames[t][j].reset();

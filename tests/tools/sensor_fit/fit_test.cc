@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "sim/skeleton_sensor/options.h"
 #include "tests/support/results.h"
 #include "tests/tools/sensor_fit/small_recording.h"
@@ -47,6 +49,23 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
   EXPECT_EQ(after.compared, before.compared);
   EXPECT_GE(after.within, after.compared * 8 / 10);
   EXPECT_LE(before.within, after.within - 5);  // the control: without the fit fewer values are within the bands
+}
+
+TEST(Simulate, TheTimesOfAnUnevenClockAreAsLateAsTheSkeletons) {
+  const TwinMotion twin = DancingTwin(9);
+  JointRecording recording = PerfectRecording(twin, 7, {});
+  for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+    recording.late_s.push_back(0.005 * std::sin(2.2 * static_cast<double>(t)));
+  }
+  ASSERT_OK(real, MakeRealRecording(recording, twin));
+  const SkeletonSensorOptions sensor = SensorV2();
+  const auto lag = static_cast<std::size_t>(sensor.Lag());
+  ASSERT_GT(lag, 0u);
+  const JointRecording simulated = Simulate(*real, sensor, kOtherDice);
+  ASSERT_EQ(simulated.late_s.size(), simulated.frames.size());
+  for (std::size_t t = lag; t < simulated.frames.size(); ++t) {
+    EXPECT_EQ(simulated.late_s[t], recording.late_s[t - lag]) << t;
+  }
 }
 
 TEST(DescribeMismatch, OfAnotherUnitAMirrorImageOrAnotherMotionIsToldAndOfATrueReferenceNot) {
