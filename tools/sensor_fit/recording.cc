@@ -1,5 +1,7 @@
 #include "tools/sensor_fit/recording.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -153,7 +155,7 @@ Result<std::vector<double>> SpaceEvenly(JointCsv& csv, const std::string& file) 
     even.frames.push_back(csv.frames[row]);
   }
   if (const std::size_t lost = csv.times_s.size() - kept.size(); lost > 0) {
-    even.remark += fmt::format("{}{} rows are too near to other rows in time; Etude does not use them",
+    even.remark += fmt::format("{}Etude does not use rows that are too near to other rows in time: {}",
                                even.remark.empty() ? "" : "; ", lost);
   }
   csv = std::move(even);

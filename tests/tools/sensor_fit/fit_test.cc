@@ -53,7 +53,8 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
 
 TEST(Simulate, TheTimesOfAnUnevenClockAreAsLateAsTheSkeletons) {
   const TwinMotion twin = DancingTwin(9);
-  JointRecording recording = PerfectRecording(twin, 7, {});
+  const MadeUp made{.rotation = glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)), .translation = {0, -1, 2.9}};
+  JointRecording recording = PerfectRecording(twin, 7, made);
   for (std::size_t t = 0; t < recording.frames.size(); ++t) {
     recording.late_s.push_back(0.005 * std::sin(2.2 * static_cast<double>(t)));
   }

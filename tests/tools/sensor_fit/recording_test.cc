@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "engine/formats/joint_csv.h"
 #include "tests/sim/performer/all_moves.h"
@@ -114,6 +117,25 @@ TEST(ReadJointRecording, NoRowOfAJitteringClockIsLost) {
     EXPECT_NEAR(read->TimeOf(k) - read->TimeOf(0), rows->times_s[row] - rows->times_s[0], 1e-6);
     ++row;
   }
+}
+
+TEST(ReadJointRecording, OfRowsOfEqualTimesTheLastCounts) {
+  const std::string once = DanceAt([](std::size_t row) { return 0.009 * std::sin(2.2 * static_cast<double>(row)); });
+  // Repeat a row's number and time before it, with the joints of another row.
+  std::vector<std::string> lines;
+  std::istringstream rows(once);
+  for (std::string line; std::getline(rows, line);) lines.push_back(line);
+  const auto after_time = [](const std::string& line) { return line.find(',', line.find(',') + 1); };
+  const std::string joints = lines[60].substr(after_time(lines[60]));
+  lines.insert(lines.begin() + 50, lines[50].substr(0, after_time(lines[50])) + joints);
+  std::string twice;
+  for (const std::string& line : lines) twice += line + "\n";
+  ASSERT_OK(read, ReadJointRecording(once, "once.csv", {}));
+  ASSERT_OK(repeated, ReadJointRecording(twice, "twice.csv", {}));
+  EXPECT_EQ(repeated->frames, read->frames);
+  EXPECT_EQ(repeated->late_s, read->late_s);
+  EXPECT_EQ(read->remark, "");
+  EXPECT_EQ(repeated->remark, "Etude does not use rows that are too near to other rows in time: 1");
 }
 
 TEST(ReadJointRecording, SaysWhyTimesAreNotUsed) {
