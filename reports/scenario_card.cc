@@ -95,7 +95,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
 std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
-        row.result.reason == reason.reason) {
+        WithoutDoubts(row.result.reason) == reason.reason) {
       return row.Id();
     }
   }

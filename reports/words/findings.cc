@@ -268,9 +268,10 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     if (row.scenario != scenario.name) return;
     ++findings.cells;
     ++statuses[row.result.status];
-    const bool is_ok = row.result.status == Status::kOk;
-    if (!is_ok) reasons[{row.result.status, row.method}].Add(row.result.reason);
-    const auto doubts = is_ok ? DoubtsIn(row.result.reason) : std::vector<std::string>();
+    if (row.result.status != Status::kOk) {
+      reasons[{row.result.status, row.method}].Add(WithoutDoubts(row.result.reason));
+    }
+    const std::vector<std::string> doubts = DoubtsIn(row.result.reason);
     for (const std::string& doubt : doubts) reasons[{Status::kOk, row.method}].Add(doubt);
     findings.doubtful += doubts.empty() ? 0 : 1;
     successes.Add(row);
@@ -342,6 +343,7 @@ std::string StatusSentence(const ScenarioFindings& findings) {
     const auto& [status, count] = findings.statuses[i];
     text += fmt::format("{}{} {}", i == 0 ? ": " : ", ", FormatCount(count), StatusName(status));
   }
+  if (findings.doubtful > 0) text += fmt::format("; doubtful: {}", FormatCount(findings.doubtful));
   return text;
 }
 

@@ -146,7 +146,7 @@ TEST(Findings, GroupReasonsThatDifferInNumbersOrFilesAlone) {
   EXPECT_EQ(count_of("for example: t/a.bvh:1:1: no motion"), 2);
 }
 
-TEST(Findings, TellTheDoubtsAboutCellsThatAreOk) {
+TEST(Findings, TellTheDoubtsAboutCellsBesideTheirReasons) {
   RunData run = ExampleRun();
   const auto ok = std::ranges::find_if(run.rows, [&](const Row& row) {
     return row.scenario == run.scenarios[0].name && row.result.status == Status::kOk;
@@ -158,6 +158,18 @@ TEST(Findings, TellTheDoubtsAboutCellsThatAreOk) {
   EXPECT_EQ(findings.doubtful, 1);
   ASSERT_EQ(findings.doubts.size(), 2u);
   EXPECT_EQ(DescribeCount(findings.doubts[0]), "1 × doubtful in " + ok->method + ": the answer: freezes for 2 s");
+  EXPECT_THAT(StatusSentence(findings), HasSubstr("; doubtful: 1"));
+  EXPECT_THAT(StatusSentence(FindingsOf(ExampleRun(), run.scenarios[0])), Not(HasSubstr("doubtful")));
+  // A doubt is no part of the reason of a cell that failed.
+  const auto failed = std::ranges::find_if(run.rows, [&](const Row& row) {
+    return row.scenario == run.scenarios[0].name && row.result.status == Status::kFailed;
+  });
+  ASSERT_NE(failed, run.rows.end());
+  failed->result.reason += DoubtfulPart("the answer: ", {"freezes for 2 s"});
+  const ScenarioFindings both = FindingsOf(run, run.scenarios[0]);
+  EXPECT_EQ(both.doubtful, 2);
+  ASSERT_EQ(both.reasons.size(), findings.reasons.size());
+  for (std::size_t i = 0; i < both.reasons.size(); ++i) EXPECT_EQ(both.reasons[i].Words(), findings.reasons[i].Words());
 }
 
 TEST(Findings, OfTheRunCountExpectationsAndCells) {
