@@ -88,8 +88,8 @@ struct ScenarioFindings {
   std::vector<std::pair<Status, int>> statuses;  ///< number of cells in each status that occurs, in the order of Status
   std::vector<SuccessFinding> successes;         ///< one finding per success metric (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;  ///< reasons, WithoutDoubts, of all cells that are not ok, the most frequent first
-  std::vector<ReasonCount> doubts;  ///< doubts about the files of cells (DoubtsIn), as kOk, the most frequent first
-  int doubtful = 0;                 ///< number of cells with doubts
+  std::vector<ReasonCount> doubts;   ///< doubts about the files of cells (DoubtsIn), as kOk, the most frequent first
+  int doubtful = 0;                  ///< number of cells with doubts
 };
 /// Returns a line about a reason or a doubt: how many cells have it, of which method.
 std::string DescribeCount(const ReasonCount& reason);
