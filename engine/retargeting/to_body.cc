@@ -162,10 +162,10 @@ void UseMetres(double stature, BodyConversion& done, std::vector<std::string>& r
     done.metres_per_unit = 1;
     return;
   }
-  // Some FBX files state centimetres, although their numbers are metres.
+  // Some FBX files state centimetres, although their numbers are metres; other programs then write such a small body.
   constexpr double kPerCentimetre = 100;
   if (done.unit == "unknown" && kPerCentimetre * stature >= kMinStated && kPerCentimetre * stature <= kMaxStated) {
-    done.unit = "metre, stated as centimetre";
+    done.unit = "metre, divided by 100";
     done.metres_per_unit = kPerCentimetre;
   }
   remarks.push_back(fmt::format(

@@ -13,7 +13,7 @@ bool HaveSameRate(const RawMotion& truth, const RawMotion& answer) {
 }
 
 StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
-  constexpr const char* kByClocks = ": judged by these clocks (--lag find searches the lag)";
+  constexpr const char* kByClocks = ": judged by these clocks";
   constexpr double kSame = 0.1;  // tolerance, frames
   const double truth_s = truth.start_s.value_or(0), answer_s = answer.start_s.value_or(0);
   const double frames = (answer_s - truth_s) * truth.rate_hz;
@@ -29,7 +29,7 @@ StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
   };
   const bool overlap = answer_s <= end_of(truth, truth_s) && truth_s <= end_of(answer, answer_s);
   if (!truth.start_s || !answer.start_s || !overlap)
-    return {0, both + ": their first frames are taken as simultaneous (--lag find searches the lag)"};
+    return {0, both + ": their first frames are taken as simultaneous"};
   const bool is_whole = HaveSameRate(truth, answer) && std::abs(frames - std::round(frames)) < kSame;
   if (is_whole) return {std::round(frames) / answer.rate_hz, both + kByClocks};
   return {frames / truth.rate_hz, both + kByClocks};

@@ -352,7 +352,9 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     is_covered.push_back(frame >= 0 && frame <= static_cast<double>(answer.FrameCount()) - 1);
   }
   matched.truth_begin_s = truth.start_s.value_or(0);
-  matched.note = NoteOn(truth, answer, clock.note, matched, is_covered);
+  const bool may_find_lag = !clock.note.empty() && lag == Lag::kNone;
+  const std::string of_clocks = clock.note + (may_find_lag ? " (--lag find searches the lag)" : "");
+  matched.note = NoteOn(truth, answer, of_clocks, matched, is_covered);
   matched.doubts = DoubtsOnPair({truth, of_truth}, {answer, of_answer}, matched, start_s);
   return matched;
 }

@@ -20,13 +20,15 @@ namespace {
 constexpr double kToMm = 1000;
 constexpr double kFarBetter = 0.1, kMin_mm = 50;  // of mean errors: how much a change must remove, and from how large
 
-/// Returns the mean joint error, millimetres, of the answer after one change of all positions. Answer and truth must
-/// both show some joint.
+/// Returns the mean joint error, millimetres, of the answer after one change of all positions; 0 below a nanometre,
+/// which is rounding. Answer and truth must both show some joint.
 double MeanErrorAfter(const EvaluatedPair& pair, const Similarity& change) {
   FrameFits fits;
   fits.fits = {change};
   fits.length = pair.found.FrameCount();
-  return *MeanJointErrorMm(pair, fits);
+  constexpr double kRounding_mm = 1e-6;
+  const double mean_mm = *MeanJointErrorMm(pair, fits);
+  return mean_mm < kRounding_mm ? 0 : mean_mm;
 }
 
 /// Returns a doubt if one root stays at the origin and the other one does not; otherwise "".

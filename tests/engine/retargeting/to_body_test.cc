@@ -73,7 +73,7 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
     EXPECT_NEAR(Stature(body->motion.poses[0]), stature_m, 1e-9);
     EXPECT_THAT(body->Note(), Not(HasSubstr("states")));
     ASSERT_OK(small, convert(0.01 * stature_m, true));
-    EXPECT_EQ(small->unit, "metre, stated as centimetre") << stature_m;
+    EXPECT_EQ(small->unit, "metre, divided by 100") << stature_m;
     EXPECT_NEAR(Stature(small->motion.poses[0]), stature_m, 1e-9);
     // The control: without a statement, only an adult's stature tells the unit.
     ASSERT_OK(guessed, convert(stature_m, false));
@@ -81,7 +81,7 @@ TEST(ToBodyMotion, ChildrenKeepTheirStatureIfTheFileStatesMetres) {
   }
   // Files that state metres, but hold millimetres, metres that were taken as centimetres, centimetres, inches, or feet.
   for (const auto& [units, unit] : {std::pair(1e-4, "unknown"),
-                                    {0.01, "metre, stated as centimetre"},
+                                    {0.01, "metre, divided by 100"},
                                     {100.0, "centimetre"},
                                     {1 / 0.0254, "inch"},
                                     {1 / 0.3048, "foot"}}) {

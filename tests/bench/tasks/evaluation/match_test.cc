@@ -466,6 +466,27 @@ TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
   EXPECT_EQ(result.metrics.size(), EvaluationMetrics().size());
 }
 
+TEST(Match, RefusesMotionsThatNeverShowAJoint) {
+  RawMotion hidden = Swaying(30, 60, 0);
+  for (glm::dvec3& p : hidden.positions) p = glm::dvec3(std::nan(""));
+  for (const bool is_truth : {true, false}) {
+    const auto refused =
+        Match(is_truth ? hidden : Swaying(30, 60, 0), is_truth ? Swaying(30, 60, 0) : hidden, "roles", Lag::kNone);
+    EXPECT_THAT(testing::Refusal(refused), HasSubstr("shows no joint in any frame"));
+  }
+}
+
+TEST(Match, NamesTheSearchForTheLagOnlyIfItWasNotMade) {
+  RawMotion truth = Swaying(30, 150, 0), answer = Swaying(30, 150, 0.2);
+  truth.start_s = 10;
+  answer.start_s = 10.5;
+  for (const Lag lag : {Lag::kNone, Lag::kFind}) {
+    ASSERT_OK(matched, Match(truth, answer, "roles", lag));
+    EXPECT_THAT(matched->note, HasSubstr("judged by these clocks"));
+    EXPECT_EQ(matched->note.find("--lag find") == std::string::npos, lag == Lag::kFind) << matched->note;
+  }
+}
+
 // Doubts about truth and answer together (DoubtsOnPair).
 
 std::vector<std::string> Doubts(const RawMotion& truth, const RawMotion& answer, Lag lag = Lag::kNone) {
