@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 
 #include "engine/motion/statistics.h"
@@ -232,6 +233,70 @@ TEST(AThighMarker, BetweenPelvisAndKneeIsNeverAHip) {
   }
   ASSERT_OK(bones, FindMarkerBodies(Take(markers), "a.trc"));
   EXPECT_THAT(bones->front().Note(), HasSubstr("joint names of a skeleton"));
+}
+
+/// The names of a laboratory or a device: of the pelvis, front and back; of the limbs; and what stands for '?'.
+struct Lab {
+  const char *front, *back, *left, *right, *set;
+  std::vector<Placed> limbs;
+};
+
+TEST(SkinMarkers, OfLabsWithTheirOwnNamesOfThePelvisAreRead) {
+  constexpr const char* kMade = "skin markers (Helen Hayes)";
+  /// Outer and inner markers of elbow, wrist, knee and ankle.
+  const auto paired = [](const char* shoulder, const std::vector<std::array<const char*, 2>>& names) {
+    constexpr std::pair<Role, glm::dvec3> kJoints[] = {
+        {kLeftElbow, {0.04, 0, 0}}, {kLeftWrist, {0, 0, 0.03}}, {kLeftKnee, {0.05, 0, 0}}, {kLeftAnkle, {0.036, 0, 0}}};
+    std::vector<Placed> markers = {{shoulder, kLeftShoulder, {0, 0.045, 0}}};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      markers.push_back({names[i][0], kJoints[i].first, kJoints[i].second});
+      markers.push_back({names[i][1], kJoints[i].first, -kJoints[i].second});
+    }
+    return markers;
+  };
+  const auto gait = [](std::vector<Placed> markers) {
+    markers.push_back({"?SHO", kLeftShoulder, {0, 0.045, 0}});
+    markers.push_back({"?ELB", kLeftElbow, {0.04, 0, 0}});
+    markers.push_back({"?KNE", kLeftKnee, {0.05, 0, 0}});
+    markers.push_back({"?ANK", kLeftAnkle, {0.036, 0, 0}});
+    markers.push_back({"?TOE", kLeftFoot});
+    return markers;
+  };
+  for (Lab lab : {
+           Lab{"?IAS", "?IPS", "L_", "R_", kMade,  // Istituto Ortopedico Rizzoli, names of the ISB
+               paired("?SAE", {{"?HLE", "?HME"}, {"?RSP", "?USP"}, {"?FLE", "?FME"}, {"?FAL", "?TAM"}})},
+           Lab{"?ASI", "?PSI", "pLeft", "pRight", kMade,  // Xsens
+               paired("?Acromion", {{"?ArmLatEpicondyle", "?ArmMedEpicondyle"},
+                                    {"?RadialStyloid", "?UlnarStyloid"},
+                                    {"?KneeLatEpicondyle", "?KneeMedEpicondyle"},
+                                    {"?LatMalleolus", "?MedMalleolus"}})},
+           Lab{"Waist?Front", "Waist?Back", "L", "R", kMade,  // OptiTrack
+               paired("?ShoulderTop", {{"?ElbowOut", "?ElbowIn"},
+                                       {"?WristOut", "?WristIn"},
+                                       {"?KneeOut", "?KneeIn"},
+                                       {"?AnkleOut", "?AnkleIn"}})},
+           Lab{"?FWT", "?BWT", "L", "R", "Plug-in Gait with CMU's waist",
+               gait({{"?WRA", kLeftWrist, {0, 0, 0.03}}, {"?WRB", kLeftWrist, {0, 0, -0.03}}})},
+           Lab{"?ASI", "?PSI", "L", "R", "Plug-in Gait", gait({{"?WRI", kLeftWrist}})},
+       }) {
+    lab.limbs.push_back({lab.front, kHipCentre, {0.125, 0.0861, 0.0459}});
+    lab.limbs.push_back({lab.back, kHipCentre, {0.05, 0.0861, -0.1041}});
+    ASSERT_OK(bodies, FindMarkerBodies(Take(lab.limbs, lab.left, lab.right), "a.c3d"));
+    EXPECT_THAT(bodies->front().Note(), ::testing::StartsWith(lab.set));
+    const auto [distance, role] = Furthest(bodies->front());
+    EXPECT_LT(distance, 0.02) << lab.front << ": " << RoleName(role);
+  }
+  // Joint centres that a laboratory has computed are joints.
+  ASSERT_OK(centres, FindMarkerBodies(Take({{"?HJC", kLeftHip},
+                                            {"?KJC", kLeftKnee},
+                                            {"?AJC", kLeftAnkle},
+                                            {"?SJC", kLeftShoulder},
+                                            {"?EJC", kLeftElbow},
+                                            {"?WJC", kLeftWrist}},
+                                           "L", "R"),
+                                      "a.c3d"));
+  EXPECT_THAT(centres->front().Note(), ::testing::StartsWith("joint names of a skeleton"));
+  EXPECT_LT(Furthest(centres->front()).first, 1e-9);
 }
 
 }  // namespace
