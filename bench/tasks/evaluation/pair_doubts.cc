@@ -157,7 +157,21 @@ class DistanceComparison {
   std::vector<std::array<double, kMaxPairs>> true_;
 };
 
-/// Returns a doubt if the answer fits far better at other times; otherwise "".
+/// Returns the side's joints, each replaced by the joint of the body's other side that has the mirrored role.
+std::vector<int> WithSidesExchanged(const JudgedSide& side) {
+  std::vector<int> exchanged = side.joints;
+  for (int& joint : exchanged) {
+    const auto role =
+        std::ranges::find_if(AllRoles(), [&](Role one) { return side.motion.roles[Index(one)] == joint; });
+    if (role == AllRoles().end()) continue;
+    const int other = side.motion.roles[Index(Mirrored(*role))];
+    if (other >= 0) joint = other;
+  }
+  return exchanged;
+}
+
+/// Returns a doubt if the answer fits far better at other times, or with left and right exchanged, which in a walk
+/// looks like a lag of half a cycle; otherwise "".
 std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_side, double start_s) {
   constexpr double kBetter = 0.5, kMin_m = 0.01, kMinCompared = 0.5, kOtherLength = 0.05;
   constexpr std::size_t kMinFrames = 5;
@@ -191,6 +205,16 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
       best = shift;
       best_m = at(shift);
     }
+  }
+  const std::vector<int> joints = WithSidesExchanged(found_side);
+  const auto exchanged = DistanceComparison(true_side, {answer, joints}).Compare([&](double f) {
+    return (f / truth.rate_hz + start_s) * answer.rate_hz;
+  });
+  if (exchanged.rms_m <= best_m && exchanged.rms_m < kBetter * paired.rms_m) {
+    return fmt::format(
+        "the answer's left and right seem to be exchanged: with the joints of the other side, distances between joints "
+        "differ by {:.3g} mm instead of {:.3g}",
+        kToMm * exchanged.rms_m, kToMm * paired.rms_m);
   }
   // Spread the answer over the whole truth, as if it had another rate.
   const double truth_steps = static_cast<double>(truth.FrameCount()) - 1,

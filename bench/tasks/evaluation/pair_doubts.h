@@ -14,6 +14,7 @@ namespace etude {
 /// - axes: a permutation of the answer's axes, some of them reversed, removes nine tenths of the mean joint error
 ///   (if there is a doubt about one of the files, only with Y up in both);
 /// - place: if none of these, one displacement of all positions removes 96 % of the mean joint error;
+/// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
 ///   large. A shift has at least one frame and at most kMaxTimeShift_s, and FindLag must find a shift, too. If a lag
 ///   was already removed (`matched.lag`), times are not searched.

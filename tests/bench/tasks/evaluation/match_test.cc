@@ -616,6 +616,29 @@ TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
   EXPECT_THAT(Doubts(begin, later), ElementsAre(HasSubstr("the answer seems to be 0.5 s late")));
 }
 
+TEST(DoubtsOnPair, NameExchangedSidesInsteadOfALag) {
+  // A walk in place: the left joints move as the right ones, half a second later.
+  RawMotion walk = Gliding(30, 180);
+  const auto joint_of = [&](Role role) { return static_cast<std::size_t>(walk.roles[Index(role)]); };
+  for (std::size_t f = 0; f < 180; ++f) {
+    for (const Role role : {Role::kLeftFoot, Role::kLeftAnkle, Role::kLeftKnee, Role::kLeftWrist, Role::kLeftElbow}) {
+      const double phase = 2 * 3.14159265358979 * static_cast<double>(f) / 30;
+      const glm::dvec3 swing(0, 0.1, 0.3);
+      walk.positions[f * walk.joints.size() + joint_of(role)] += std::sin(phase) * swing;
+      walk.positions[f * walk.joints.size() + joint_of(Mirrored(role))] -= std::sin(phase) * swing;
+    }
+  }
+  RawMotion exchanged = walk;
+  for (const Role role : AllRoles()) {
+    for (std::size_t f = 0; f < 180; ++f) {
+      exchanged.positions[f * walk.joints.size() + joint_of(role)] = walk.At(f, joint_of(Mirrored(role)));
+    }
+  }
+  EXPECT_THAT(Doubts(walk, WithErrors(exchanged, 0.01)),
+              ElementsAre(HasSubstr("the answer's left and right seem to be exchanged")));
+  EXPECT_THAT(Doubts(walk, WithErrors(walk, 0.01)), IsEmpty());
+}
+
 TEST(DoubtsOnPair, OfAMotionThatRepeatsNameTheSmallestShift) {
   const auto stepping = [](double late_s) {
     RawMotion motion = Gliding(30, 240);
