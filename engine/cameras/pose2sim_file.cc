@@ -209,7 +209,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   try {
     file = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    return Fail(PlaceOf(error.source()), "{}: {}", kNotToml, error.description());
+    return Fail(PlaceOf(error.source()), "is not valid TOML: {}", error.description());
   }
   std::vector<CameraTable> tables;
   AddCameraTables(file, "", tables);

@@ -26,7 +26,4 @@ std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 /// values do not describe a camera.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
-/// The beginning of the error message of a text that is not TOML at all.
-inline constexpr std::string_view kNotToml = "is not valid TOML";
-
 }  // namespace etude

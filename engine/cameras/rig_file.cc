@@ -252,8 +252,8 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
   }
   // A TOML file is from Pose2Sim or a program with the same format.
   auto toml = ReadPose2SimCalibration(text);
-  const bool is_toml = toml || toml.error().message.find(kNotToml) == std::string::npos;
-  if (is_toml || text[first] == '[' || text.find("\n[") != std::string_view::npos) {
+  const bool has_camera = toml || toml.error().message.starts_with("camera ");
+  if (has_camera || text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     if (!toml) return tl::unexpected(toml.error());
     return RigFile{
         *std::move(toml),

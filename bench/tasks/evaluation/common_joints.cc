@@ -71,14 +71,14 @@ std::vector<std::string> FindAlsoHeld(const RawMotion& truth, const RawMotion& a
 }
 
 Result<void> CheckCommon(const RawMotion& truth, const RawMotion& answer, std::size_t common, std::string_view set) {
+  const auto own = [](const RawMotion& motion) { return motion.joints.size() - motion.added.size(); };
+  const bool is_few = set != "same" && common < kNeededJoints.size() && 2 * common < std::min(own(truth), own(answer));
+  if (common > 0 && !is_few) return {};
   for (const RawMotion* motion : {&truth, &answer}) {
     if (std::ranges::none_of(motion->positions, IsSeen)) {
       return Fail({motion->name}, "shows no joint in any frame; allowed: a motion that shows joints");
     }
   }
-  const auto own = [](const RawMotion& motion) { return motion.joints.size() - motion.added.size(); };
-  const bool is_few = set != "same" && common < kNeededJoints.size() && 2 * common < std::min(own(truth), own(answer));
-  if (common > 0 && !is_few) return {};
   if (set == "same") {
     return Fail({answer.name},
                 "has no joint in common with the truth (joints: same); its joints are {}, those of the truth {}",

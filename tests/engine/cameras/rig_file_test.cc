@@ -106,9 +106,10 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   EXPECT_EQ(reason(good), "accepted");
   EXPECT_THAT(reason("hello"),
               HasSubstr("this is not a calibration; allowed: a rig file written by `etude calibrate`"));
-  // Any TOML is read as a calibration; a text with "= {" that is no TOML is none.
+  // TOML with a camera is a calibration, also in one line.
   EXPECT_THAT(reason("var rig = {\"a\": 1};"), HasSubstr("this is not a calibration"));
-  EXPECT_THAT(reason("left={name=\"left\"}\n"), HasSubstr("camera left"));
+  EXPECT_THAT(reason("left={matrix=[[1, 0], [0, 1]]}\n"), HasSubstr("camera left"));
+  EXPECT_THAT(reason("a = 1\n"), HasSubstr("this is not a calibration"));
   EXPECT_THAT(reason(testing::Replaced(good, "\"right\"", "\"left\"")), HasSubstr("two cameras are named left"));
   EXPECT_THAT(reason(testing::Replaced(good, "   T:", "   S:")), HasSubstr("camera left: no T"));
   EXPECT_EQ(reason(testing::Replaced(kQualisys, "viewrotation=\"0\"", "viewrotation=\"90\"")), "accepted");

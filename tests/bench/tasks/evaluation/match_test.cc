@@ -468,6 +468,7 @@ TEST(JudgeMotion, ReportsEveryMetricOfTheTask) {
 
 TEST(Match, RefusesMotionsThatNeverShowAJoint) {
   RawMotion hidden = Swaying(30, 60, 0);
+  hidden.roles = RawMotion::NoRoles();  // readers give no roles to joints that are never seen
   for (glm::dvec3& p : hidden.positions) p = glm::dvec3(std::nan(""));
   for (const bool is_truth : {true, false}) {
     const auto refused =
