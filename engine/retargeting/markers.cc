@@ -12,6 +12,7 @@
 #include "engine/base/gaps.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/motion/displacements.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/body_doubts.h"
 #include "engine/retargeting/exchanged_sides.h"
@@ -28,13 +29,15 @@ namespace {
 
 constexpr double kMaxGap_s = 1;
 
-/// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames.
-int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
+/// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames, which `is_filled`
+/// marks.
+int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most, std::vector<bool>& is_filled) {
   const auto at = [&](std::size_t frame) -> MarkerPosition& { return frames[frame][joint]; };
   return FillGaps(
       frames.size(), most, [&](std::size_t frame) { return at(frame).has_value(); },
       [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
         at(frame) = *at(from) + share * (*at(to) - *at(from));
+        is_filled[frame] = true;
       });
 }
 
@@ -226,6 +229,25 @@ bool IsRelativeToHips(const std::vector<BodyPose>& poses) {
                              [](const BodyPose& pose) { return glm::length(pose[Role::kHipCentre]) < kMaxAway; });
 }
 
+/// Adds a text about the positions that were interpolated in gaps. It is a doubt if a gap is long enough that the body
+/// may have done something else, unless the caller also gets the positions without them (`keeps_shown`).
+void TellFilled(int filled, const std::vector<bool>& is_filled, const MarkerMotion& markers, bool keeps_shown,
+                MarkerBody& body) {
+  constexpr double kLong_s = 0.25;
+  if (filled == 0) return;
+  const auto gaps = RangesOf(is_filled);
+  const auto longest = *std::ranges::max_element(gaps, {}, [](const FrameRange& gap) { return gap.last - gap.first; });
+  std::string said = fmt::format("{} positions interpolated in gaps", filled);
+  const bool is_long = (longest.last - longest.first + 1) / markers.rate_hz >= kLong_s;
+  if (is_long) {
+    const double start_s = markers.start_s.value_or(0);
+    said += fmt::format(", the longest from {:.2f} to {:.2f} s", start_s + longest.first / markers.rate_hz,
+                        start_s + longest.last / markers.rate_hz);
+  }
+  if (is_long && !keeps_shown) return body.Doubt(said);
+  body.changes.push_back(std::move(said));
+}
+
 /// Makes the body from the markers' positions times `scale`; nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
                                  const MarkerColumns& columns, const MarkerOptions& options) {
@@ -245,8 +267,9 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
+  std::vector<bool> is_filled(frames.size());
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
-  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap);
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap, is_filled);
   // Rotate upright. Files that Etude wrote have Y up; arrays of other layouts only borrow the names of Etude's joints.
   UpRule rule = options.up;
   const bool is_borrowed = !options.layout.empty() && (options.layout != "etude" || options.is_of_camera);
@@ -272,7 +295,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     if (options.keeps_others && stretch != longest) body.others.push_back({stretch.first, PosesOf(frames, stretch)});
   }
   // Describe the corrections.
-  if (filled > 0) body.changes.push_back(fmt::format("{} positions interpolated in gaps", filled));
+  TellFilled(filled, is_filled, markers, options.keeps_shown, body);
   const bool uses_all = options.keeps_shown && !options.keeps_others;  // MarkerBody::shown has all frames
   if (body.motion.poses.size() < frames.size() && !uses_all) {
     body.Doubt(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));

@@ -420,7 +420,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
         fmt::format("the body lies along {}{}, and Etude assumes that Y is up", lies, at_rest ? ", also at rest" : "");
     if (at_rest) lies += "; if another axis is up, rotate the file first";
   }
-  if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
+  const std::size_t t_pose = CountForeignTPose(clip, sampler, done.up);
+  if (options.drop_t_pose) done.dropped_frames = t_pose;
 
   // Sample, check sides, find the unit and the floor, and convert.
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
@@ -441,6 +442,10 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   }
   if (overstretch > 0)
     done.changes.push_back(fmt::format("the knees are overextended by {:.0f}° on average", Degrees(overstretch)));
+  if (t_pose > done.dropped_frames) {
+    done.Doubt(fmt::format("the motion begins with {} frame{} of a T-pose, from which it jumps", t_pose,
+                           t_pose == 1 ? "" : "s"));
+  }
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));
   done.Doubt(DescribeRootTravel(clip, map));
   return done;

@@ -26,7 +26,7 @@ struct BodyOptions {
   bool keep_floor = false;                           ///< true: the file's floor is not moved to 0
   std::optional<double> floor = std::nullopt;    ///< the floor's height along the up axis, in the file's unit
   std::optional<double> stature = std::nullopt;  ///< stature in motion, in the file's unit (Ground::stature)
-  bool drop_t_pose = true;                       ///< true: a leading T-pose from which the motion jumps is dropped
+  bool drop_t_pose = true;  ///< true: a leading T-pose from which the motion jumps is dropped; false: doubted
 };
 
 /// A clip converted to the twenty joints: metres, Y up, feet on the floor.

@@ -79,7 +79,7 @@ class EvaluationWorld final : public FileWorld {
     AddDoubts(*answer);
     auto [result, on_pair] = Judged(*answer);
     if (result.status == Status::kOk && result.digests[0].second == result.digests[1].second) {
-      result.reason += ", every position equals the truth's: is the answer a copy of the truth?";
+      on_pair.emplace_back("every position equals the truth's: is the answer a copy of the truth?");
     }
     return WithDoubts(std::move(result), answer->doubts, on_pair);
   }

@@ -135,9 +135,9 @@ std::string NoteOnRoots(const std::string& of_truth, const RawMotion& truth, con
                                : fmt::format(", root {} of the truth, {} of the answer", of_truth, of_answer);
 }
 
-/// Returns a note on joints whose distance from the truth hardly varies and is far larger than that of most joints:
+/// Returns a doubt on joints whose distance from the truth hardly varies and is far larger than that of most joints:
 /// they may be different points of the body. "" if there are none.
-std::string NoteOnStrangers(const MatchedMotions& matched) {
+std::string DoubtOnStrangers(const MatchedMotions& matched) {
   constexpr double kMin_m = 0.05, kTimes = 4, kSteady = 0.25;  // tolerances (ours)
   const std::size_t joints = matched.joints.size();
   std::vector<double> means, spreads;
@@ -161,7 +161,7 @@ std::string NoteOnStrangers(const MatchedMotions& matched) {
   }
   if (strangers.empty()) return "";
   return fmt::format(
-      ", {} away from the truth in all frames (median joint {:.1f} mm): is it the same point in both files?",
+      "{} away from the truth in all frames (median joint {:.1f} mm): is it the same point in both files?",
       SomeOf(strangers), 1000 * median);
 }
 
@@ -220,7 +220,7 @@ std::string NoteOn(const RawMotion& truth, const RawMotion& answer, const std::s
     note += fmt::format(", both files also contain {}, which are not judged (--joints same judges them)",
                         SomeOf(matched.also_held));
   }
-  note += NoteOnRoots(matched.root, truth, answer) + NoteOnStrangers(matched);
+  note += NoteOnRoots(matched.root, truth, answer);
   note += fmt::format(", {} at {:g} Hz", count(matched.pair.truth.FrameCount(), "frame"), matched.pair.rate_hz);
   if (!HaveSameRate(truth, answer)) {
     note += fmt::format(" (the truth has {:g} Hz, the answer {:g} Hz)", truth.rate_hz, answer.rate_hz);
@@ -356,6 +356,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   const std::string of_clocks = clock.note + (may_find_lag ? " (--lag find searches the lag)" : "");
   matched.note = NoteOn(truth, answer, of_clocks, matched, is_covered);
   matched.doubts = DoubtsOnPair({truth, of_truth}, {answer, of_answer}, matched, start_s);
+  if (std::string doubt = DoubtOnStrangers(matched); !doubt.empty()) matched.doubts.push_back(std::move(doubt));
   return matched;
 }
 

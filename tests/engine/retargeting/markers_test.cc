@@ -636,9 +636,15 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
   EXPECT_EQ(bodies->front().motion.poses.size(), 25u);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the sway is straight";
-  EXPECT_EQ(bodies->front().Note(),
-            "Etude's joints; 4 positions interpolated in gaps; Etude uses only frames 1 to 25 of 40, because joints "
-            "are missing in other frames for over 1 s");
+  EXPECT_EQ(
+      bodies->front().Note(),
+      "Etude's joints; 4 positions interpolated in gaps, the longest from 0.50 to 0.80 s; Etude uses only frames 1 "
+      "to 25 of 40, because joints are missing in other frames for over 1 s");
+  EXPECT_THAT(bodies->front().doubts,
+              ::testing::ElementsAre(HasSubstr("interpolated in gaps"), HasSubstr("frames 1 to 25")));
+  // Who also gets the positions as the file shows them need not doubt the others.
+  ASSERT_OK(shown, FindMarkerBodies(take, "a.trc", {.keeps_shown = true}));
+  EXPECT_THAT(shown->front().doubts, ::testing::IsEmpty());
 }
 
 TEST(Markers, LostAtTheBeginningAndTheEndAreNotSaidToBeLostForLong) {

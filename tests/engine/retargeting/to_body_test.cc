@@ -118,6 +118,9 @@ TEST(ToBodyMotion, DropsEveryFrameOfATPoseThatIsHeld) {
   ASSERT_OK(whole, Convert(clip, {.drop_t_pose = false}));
   EXPECT_EQ(whole->dropped_frames, 0u);
   EXPECT_EQ(whole->motion.poses.size(), 9u);
+  EXPECT_THAT(whole->doubts,
+              ::testing::ElementsAre("the motion begins with 3 frames of a T-pose, from which it jumps"));
+  EXPECT_THAT(body->doubts, ::testing::IsEmpty());
 }
 
 TEST(ToBodyMotion, KeepsATPoseThatTheMotionBeginsWith) {

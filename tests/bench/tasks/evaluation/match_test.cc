@@ -264,15 +264,18 @@ TEST(Match, AJointThatIsAnotherPointOfTheBodyIsNamed) {
     }
     return motion;
   };
+  const auto doubts_on = [](const RawMotion& answer) {
+    return Match(Gliding(30, 30), answer, "roles", Lag::kNone)->doubts;
+  };
   const auto said = HasSubstr(
       "head 101 mm away from the truth in all frames (median joint 9.9 mm): is it the same point in both files?");
-  EXPECT_THAT(ResultOf(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.01)).reason, said);
-  // The reason does not ask this if the whole body is displaced, or if the joint is displaced in some frames only.
-  const auto silent = ::testing::Not(HasSubstr("the same point"));
-  EXPECT_THAT(ResultOf(Gliding(30, 30), off_by(Role::kHead, 0.1, 0.1)).reason, silent);
+  EXPECT_THAT(doubts_on(off_by(Role::kHead, 0.1, 0.01)), ElementsAre(said));
+  // This is not asked if the whole body is displaced, or if the joint is displaced in some frames only.
+  const auto silent = ::testing::Not(::testing::Contains(HasSubstr("the same point")));
+  EXPECT_THAT(doubts_on(off_by(Role::kHead, 0.1, 0.1)), silent);
   RawMotion flickering = off_by(Role::kHead, 0, 0.01);
   for (std::size_t f = 0; f < 30; f += 2) flickering.positions[f * kRoleCount + Index(Role::kHead)].y += 0.4;
-  EXPECT_THAT(ResultOf(Gliding(30, 30), flickering).reason, silent);
+  EXPECT_THAT(doubts_on(flickering), silent);
 }
 
 TEST(Match, FailsWithoutACommonJointOrAnySeen) {
