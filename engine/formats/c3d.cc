@@ -159,7 +159,8 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   // Read and check the number of points, scale, rate and unit.
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
-  const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
+  const double stated_hz = parameters.Number("POINT:RATE").value_or(0), header_hz = all.Float(20);
+  const double rate = stated_hz == 0 ? header_hz : stated_hz;
   if (layout.points == 0)
     return Fail({file}, "the file contains no points (Etude does not read rotations and analogue channels)");
   if (layout.points > kMaxPoints)
@@ -184,7 +185,9 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   // Frame 1 has time 0.
   read.markers.start_s = std::max(0.0, TrialField(parameters, kStartField).value_or(all.Word(6)) - 1) / rate;
   constexpr double kSameRate = 0.01;
-  if (const double header_hz = all.Float(20); header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
+  if (stated_hz == 0 && parameters.Number("POINT:RATE")) {
+    read.markers.remark = fmt::format("POINT:RATE is 0; Etude uses the header's rate, {:g} Hz", rate);
+  } else if (header_hz > 0 && std::abs(header_hz / rate - 1) > kSameRate) {
     read.markers.remark =
         fmt::format("POINT:RATE states {:g} Hz, but the header states {:g} Hz; Etude uses POINT:RATE", rate, header_hz);
   }

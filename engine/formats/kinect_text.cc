@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/formats/kinect_columns.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
@@ -27,12 +28,14 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
                 table.columns, kPlaceColumns, kPoseColumns);
   }
   const std::size_t stride = table.columns / kKinectV2JointCount;
+  ASSIGN_OR_RETURN(const auto named, FindKinectJoints(table, {kKinectV2JointCount, 0, stride}, file));
   std::vector<KinectV2Frame> frames(table.RowCount());
   double farthest = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
     const auto row = table.Row(t);
     for (std::size_t j = 0; j < kKinectV2JointCount; ++j) {
-      const glm::dvec3 place(row[stride * j], row[stride * j + 1], row[stride * j + 2]);
+      const std::size_t at = stride * (named.empty() ? j : named[j]);
+      const glm::dvec3 place(row[at], row[at + 1], row[at + 2]);
       if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0) || place == glm::dvec3(-1)) continue;
       farthest = std::max(farthest, glm::length(place));
       if (glm::length(place) > kMaxDistance) {

@@ -23,10 +23,10 @@ using RolePositions = std::array<std::optional<glm::dvec3>, kRoleCount>;
 using KinectV2Frame = std::array<std::optional<glm::dvec3>, kKinectV2JointCount>;
 
 /// Reads a recording of a Kinect v2 as text with one line per frame: 25 × (x, y, z), or 25 × (x, y, z, qx, qy, qz, qw),
-/// whose orientations are ignored. A joint at nan, (0, 0, 0) or (-1, -1, -1) is missing. Returns an error if
-/// `ReadNumberRows` refuses the text, or if the lines do not have 75 or 175 values. Positions in another unit than
-/// metres are an error as well. Signs of another unit are a position farther than 20 m from the sensor, and positions
-/// that are all nearer than 5 cm.
+/// whose orientations are ignored. A heading may name the joints (FindKinectJoints). A joint at nan, (0, 0, 0) or (-1,
+/// -1, -1) is missing. Returns an error if `ReadNumberRows` refuses the text, or if the lines do not have 75 or 175
+/// values. Positions in another unit than metres are an error as well. Signs of another unit are a position farther
+/// than 20 m from the sensor, and positions that are all nearer than 5 cm.
 Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const std::string& file);
 
 /// Returns the index of a role's joint in the SDK's JointType.

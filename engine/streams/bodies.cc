@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <utility>
+
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -92,16 +96,44 @@ void Bodies::AssignByNearness(const std::vector<Body>& same) {
   }
 }
 
-/// Returns the total length of the paths of all joints, in the file's unit.
-double Bodies::PathOf(const Body& body) {
-  double path = 0;
-  for (std::size_t t = 1; t < body.frames.size(); ++t) {
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      const auto &before = body.frames[t - 1].places[i], &now = body.frames[t].places[i];
-      if (before && now) path += glm::distance(*before, *now);
-    }
+double Bodies::SpreadOf(const Body& body) {
+  constexpr std::size_t kMaxBlock = 10, kMinBlocks = 6;
+  constexpr double kTail = 0.05;
+  const std::size_t block = std::clamp<std::size_t>(body.frames.size() / kMinBlocks, 1, kMaxBlock);
+  // Measure the trunk, which limits a step.
+  std::vector<double> trunks;
+  for (const Seen& seen : body.frames) {
+    const auto &hips = seen.places[Index(Role::kHipCentre)], &neck = seen.places[Index(Role::kShoulderCentre)];
+    if (hips && neck) trunks.push_back(glm::distance(*hips, *neck));
   }
-  return path;
+  const double max_step = trunks.empty() ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(trunks));
+  double spread = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    // Collect the joint's places, each relative to where it would be without jumps, block by block.
+    std::array<std::vector<double>, 3> of_block, medians;
+    glm::dvec3 shift(0);
+    const Seen* before = nullptr;
+    for (std::size_t t = 0; t < body.frames.size(); ++t) {
+      const Seen& now = body.frames[t];
+      if (now.places[i]) {
+        const glm::dvec3 step = before == nullptr ? glm::dvec3(0) : *now.places[i] - *before->places[i];
+        const double frames = before == nullptr ? 1 : static_cast<double>(now.frame - before->frame);
+        if (glm::length(step) > max_step * frames) shift -= step;
+        before = &now;
+        for (int axis = 0; axis < 3; ++axis) of_block[axis].push_back((*now.places[i] + shift)[axis]);
+      }
+      const bool is_end = (t + 1) % block == 0 || t + 1 == body.frames.size();
+      for (int axis = 0; is_end && axis < 3; ++axis) {
+        if (!of_block[axis].empty()) medians[axis].push_back(Median(std::exchange(of_block[axis], {})));
+      }
+    }
+    if (before == nullptr) continue;
+    glm::dvec3 size(0);
+    for (int axis = 0; axis < 3; ++axis)
+      size[axis] = Quantile(medians[axis], 1 - kTail) - Quantile(medians[axis], kTail);
+    spread += glm::length(size);
+  }
+  return spread;
 }
 
 /// Returns the mean distance, in trunk lengths, between the joints that are in both frames; nullopt if a frame lacks
@@ -120,7 +152,11 @@ std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after)
 }
 
 void Bodies::JoinContinued(StreamRecording& recording) {
-  constexpr double kMaxBreak_s = 1, kMaxGap = 0.5;
+  constexpr double kMaxBreak_s = 1, kMaxEmptyBreak_s = 3, kMaxGap = 0.5;
+  std::vector<bool> shows(recording.frames.size(), false);
+  for (const Body& body : bodies_) {
+    for (const Seen& seen : body.frames) shows[seen.frame] = true;
+  }
   // Collect the pairs in which the second body can continue the first.
   std::vector<Pair> pairs;
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
@@ -129,7 +165,11 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // sorted by first appearance
     for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
       const Seen& begin = bodies_[b].frames.front();
-      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
+      const auto after = shows.begin() + static_cast<std::ptrdiff_t>(end.frame) + 1;
+      const bool is_empty = std::find(after, shows.begin() + static_cast<std::ptrdiff_t>(begin.frame), true) ==
+                            shows.begin() + static_cast<std::ptrdiff_t>(begin.frame);
+      const double max_break_s = is_empty ? kMaxEmptyBreak_s : kMaxBreak_s;
+      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > max_break_s) break;
       const auto gap = GapInTrunks(end, begin);
       if (gap && *gap <= kMaxGap) pairs.push_back({*gap, a, b});
     }
@@ -186,7 +226,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
   } else {
     for (std::size_t b = 1; b < bodies_.size(); ++b) {
       const std::size_t most = bodies_[chosen].frames.size(), here = bodies_[b].frames.size();
-      if (here > most || (here == most && PathOf(bodies_[b]) > PathOf(bodies_[chosen]))) chosen = b;
+      if (here > most || (here == most && SpreadOf(bodies_[b]) > SpreadOf(bodies_[chosen]))) chosen = b;
     }
   }
   if (bodies_.size() > 1) {
@@ -195,8 +235,16 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     const std::string why = ties > 1
                                 ? fmt::format(", because it moves most ({} bodies are in equally many frames)", ties)
                                 : ", because it is in the most frames";
-    recording.remarks.push_back(
-        fmt::format("the file has {} bodies; Etude reads body {}{}", bodies_.size(), chosen, reading.body ? "" : why));
+    // Count the frames that show only other bodies.
+    std::vector<bool> others(recording.frames.size(), false);
+    for (const Body& body : bodies_) {
+      for (const Seen& seen : body.frames) others[seen.frame] = true;
+    }
+    for (const Seen& seen : bodies_[chosen].frames) others[seen.frame] = false;
+    const auto only_others = std::ranges::count(others, true);
+    recording.remarks.push_back(fmt::format(
+        "the file has {} bodies; Etude reads body {}{}{}", bodies_.size(), chosen, reading.body ? "" : why,
+        only_others > 0 ? fmt::format("; {} of {} frames show only other bodies", only_others, others.size()) : ""));
   }
   // Copy the joints of the chosen body to the recording.
   for (const Seen& seen : bodies_[chosen].frames) {

@@ -24,8 +24,8 @@ class Bodies {
            const std::array<TrackingState, kRoleCount>& states);
 
   /// Copies one body into the recording's frames: the requested body, counted by first appearance, or, without a
-  /// request, the body in most frames. Of bodies in equally many frames, takes the body that moves most, because
-  /// sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
+  /// request, the body in most frames. Of bodies in equally many frames, takes the body that moves most (SpreadOf),
+  /// because sensors sometimes take furniture for a person. Calls JoinContinued before it chooses.
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
@@ -53,12 +53,15 @@ class Bodies {
   void AssignByNearness(const std::vector<Body>& same);
 
   /// Joins bodies that are one person (ours): a tracker that loses a person for a moment gives the person a new
-  /// identifier. The second body must appear at most a second after the first body disappears, and the joints of the
-  /// two must then be at most half a trunk apart on average. The nearest pair is joined first, and a body continues at
-  /// most one other body. A remark reports each pair.
+  /// identifier. The second body must appear at most a second after the first body disappears (at most three seconds if
+  /// the file shows nobody in between), and the joints of the two must then be at most half a trunk apart on average.
+  /// The nearest pair is joined first, and a body continues at most one other body. A remark reports each pair.
   void JoinContinued(StreamRecording& recording);
 
-  static double PathOf(const Body& body);
+  /// Returns how far the joints move, summed over the joints, in the file's unit (ours): the diagonal of the box that
+  /// holds a joint's places, without the lowest and the highest 5 % along each axis. A place is the median of up to ten
+  /// frames, and a step by more than a trunk per frame is left out, so that neither jitter nor a jump counts as motion.
+  static double SpreadOf(const Body& body);
   static std::optional<double> GapInTrunks(const Seen& before, const Seen& after);
 
   std::vector<Body> bodies_;

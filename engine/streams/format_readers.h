@@ -9,6 +9,9 @@
 
 namespace etude {
 
+/// The largest number in a table: nanoseconds since 1970, with a margin.
+inline constexpr double kMaxClock = 1e19;
+
 /// Returns true for three coordinates that stand for a missing joint: 0, 0, 0 or −1, −1, −1.
 inline bool IsNoPlace(const glm::dvec3& place) { return place == glm::dvec3(0) || place == glm::dvec3(-1); }
 
@@ -35,7 +38,7 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
                                    const StreamReading& reading);
 
 /// Determines the unit of the positions from the trunk's length, and converts positions to metres. Fails if no unit
-/// gives a human trunk.
+/// gives a human trunk, or if the body is flat: then the positions are pixels of a picture.
 Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 
 /// Returns true for a frame rate that a Kinect's recordings have, 5 to 130 Hz, with a margin for jitter.

@@ -6,6 +6,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/kinect_columns.h"
 #include "engine/formats/number_rows.h"
 #include "engine/formats/row_rates.h"
 #include "engine/formats/time_scale.h"
@@ -23,7 +24,6 @@ struct RowLayout {
   bool has_fourth;     ///< the fourth number of a joint may be the joint's tracking state
 };
 
-constexpr double kMaxClock = 1e18;
 constexpr std::size_t kV1Joints = kRoleCount, kV2Joints = kKinectV2JointCount;
 constexpr RowLayout kV1Layouts[] = {{3 * kV1Joints, kV1Joints, 0, 3, false},
                                     {3 * kV1Joints + 1, kV1Joints, 1, 3, false},
@@ -122,11 +122,13 @@ std::optional<double> StepOfBursts(const NumberRows& table) {
 }
 
 // Converts a row to a frame. The frame lacks joints that have no position or are not tracked.
-RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool has_states) {
+RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, const StreamRecording& recording) {
+  const bool has_states = recording.records_states;
   std::vector<std::optional<glm::dvec3>> places(layout.joints);
   std::vector<TrackingState> states(layout.joints, TrackingState::kTracked);
   for (std::size_t j = 0; j < layout.joints; ++j) {
-    const auto at = row.subspan(layout.first + layout.stride * j, layout.stride);
+    const std::size_t joint = recording.named_joints.empty() ? j : recording.named_joints[j];
+    const auto at = row.subspan(layout.first + layout.stride * joint, layout.stride);
     const glm::dvec3 place(at[0], at[1], at[2]);
     if (std::isnan(place.x + place.y + place.z) || IsNoPlace(place)) continue;
     if (has_states && at[3] == 0) continue;
@@ -145,7 +147,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
 /// Converts a row to frame number `index` of the recording, with the frame's time.
 Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
                                  const StreamRecording& recording, std::size_t index) {
-  RecordedFrame frame = FrameOf(row, layout, recording.records_states);
+  RecordedFrame frame = FrameOf(row, layout, recording);
   frame.line = place.line;
   const double count = recording.records_times ? row[0] : static_cast<double>(index);
   if (std::isnan(count)) return Fail(std::move(place), "this row has no time, but other rows have one");
@@ -174,6 +176,12 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
                 StreamFormatName(format), ColumnsAllowed(format));
   }
   StreamRecording recording{.format = format, .separator = table.separator};
+  ASSIGN_OR_RETURN(recording.named_joints,
+                   FindKinectJoints(table, {layout->joints, layout->first, layout->stride}, file));
+  if (!std::ranges::is_sorted(recording.named_joints)) {
+    recording.remarks.emplace_back(
+        "the heading names the joints in another order than the SDK's; Etude uses the names");
+  }
   if (table.has_decimal_commas) recording.remarks.emplace_back("Etude read commas as decimal points");
   recording.records_states = FourthsAreStates(table, *layout);
   recording.records_times = layout->first == 1 && !reading.rate_hz;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "engine/base/named.h"
 #include "engine/base/names.h"
@@ -37,7 +38,7 @@ std::size_t FirstRowColumns(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = Trimmed(TakeLine(text));
     if (line.empty()) continue;
-    const auto row = ReadNumberRows(line, "", 1e18);
+    const auto row = ReadNumberRows(line, "", kMaxClock);
     if (row) return row->columns;
   }
   return 0;
@@ -84,6 +85,23 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   }
   if (lengths.empty()) return 0;
   return UpperMedian(std::move(lengths));
+}
+
+/// Returns the greatest distance along Z between two joints of a frame; nullopt if no frame has ten joints or more.
+std::optional<double> GreatestDepth(const StreamRecording& recording) {
+  constexpr std::ptrdiff_t kMinJoints = 10;
+  std::optional<double> greatest;
+  for (const RecordedFrame& frame : recording.frames) {
+    if (std::ranges::count_if(frame.places, [](const auto& place) { return place.has_value(); }) < kMinJoints) continue;
+    std::optional<std::pair<double, double>> range;
+    for (const auto& place : frame.places) {
+      if (!place) continue;
+      range = range ? std::pair(std::min(range->first, place->z), std::max(range->second, place->z))
+                    : std::pair(place->z, place->z);
+    }
+    greatest = std::max(greatest.value_or(0), range->second - range->first);
+  }
+  return greatest;
 }
 
 /// Removes the positions of all frames that stand for missing joints.
@@ -226,6 +244,7 @@ void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewh
 }
 
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
+  constexpr double kMinDepth_m = 0.01;
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
   const struct {
     double metres;
@@ -233,6 +252,12 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
   } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
   for (const auto& [metres, name] : units) {
     if (!(trunk * metres >= kMinTrunk_m && trunk * metres <= kMaxTrunk_m)) continue;
+    if (const auto depth = GreatestDepth(recording); depth && *depth * metres < kMinDepth_m) {
+      return Fail({file},
+                  "the body is at most {:.2g} m deep in every frame; allowed: at least {} m; are these pixels of a "
+                  "picture, whose third number is a score?",
+                  *depth * metres, kMinDepth_m);
+    }
     if (metres == 1) return {};
     recording.remarks.push_back(fmt::format("places in {}", name));
     recording.metres_per_unit = metres;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -54,6 +55,7 @@ struct StreamRecording {
   double first_count = 0;                  ///< the number in the clock's column at 0 s
   double metres_per_unit = 1;              ///< the factor that was applied to positions
   char separator = 0;  ///< the separator of a Kinect's rows (NumberRows::separator); 0: found in each row
+  std::vector<std::size_t> named_joints = {};  ///< which joint of a Kinect's rows is which (FindKinectJoints)
   std::vector<RecordedFrame> frames = {};  ///< in ascending order of time
   std::vector<std::string> remarks = {};   ///< decisions made while reading ("2 bodies, of which body 0 is read")
 };

@@ -37,7 +37,8 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made, c
                   static_cast<double>(frames) / made.stream.rate_hz, recording.records_states ? "with" : "no");
   if (const std::string rate = DescribeAssumedRate(recording); !rate.empty()) text += ", " + rate;
   if (!recording.is_level) text += "; " + Describe(made.level);
-  if (made.lost_frames > 0) text += fmt::format("; nobody is visible in {} of {} frames", made.lost_frames, frames);
+  if (made.lost_frames > 0)
+    text += fmt::format("; the body is not visible in {} of {} frames", made.lost_frames, frames);
   for (const std::string& remark : recording.remarks) text += "; " + remark;
   for (const std::string& doubt : DoubtsOf(made.stream, StatedUp(recording, options))) {
     if (!doubt.empty()) text += "; " + doubt;

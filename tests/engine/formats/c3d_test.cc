@@ -173,6 +173,28 @@ TEST(C3d, RefusesWhatIsDamaged) {
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;
 }
 
+TEST(C3d, ARateOfZeroIsReplacedByTheHeadersRate) {
+  const std::string good = C3dWriter(kIntel, true).Write();
+  std::string without = good, none = good;
+  without.replace(good.find("RATE") + 8, 4, 4, '\0');
+  none = without;
+  none.replace(20, 4, 4, '\0');
+  ASSERT_OK(read, ReadC3d(without, "a.c3d"));
+  EXPECT_EQ(read->markers.rate_hz, 100);
+  EXPECT_EQ(read->markers.remark, "POINT:RATE is 0; Etude uses the header's rate, 100 Hz");
+  EXPECT_EQ(C3dComplaint(none), "a.c3d: the rate is 0 Hz; allowed: above 0");
+}
+
+TEST(C3d, UnitsMayBeNamedInTheSingular) {
+  for (const auto& [unit, metres] :
+       {std::pair("Meter", 1.0), {"inch", 0.0254}, {"Millimetre", 0.001}, {"foot", 0.3048}}) {
+    C3dWriter writer(kIntel, true);
+    writer.unit = unit;
+    ASSERT_OK(read, ReadC3d(writer.Write(), "a.c3d"));
+    EXPECT_NEAR(read->markers.frames[0][0]->z, -50.5 * metres, 1e-6) << unit;
+  }
+}
+
 /// Returns markers of which every seventh is unseen in the second frame.
 MarkerMotion SomeMarkers(std::size_t markers, std::size_t frames) {
   MarkerMotion motion{.rate_hz = 120, .names = {}, .frames = {}};

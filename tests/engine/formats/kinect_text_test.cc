@@ -1,8 +1,11 @@
 #include "engine/formats/kinect_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
+#include <string>
 
 #include "tests/support/results.h"
 
@@ -59,6 +62,30 @@ TEST(KinectText, TakesZerosAndNanForMissingJoints) {
   EXPECT_FALSE((*read)[0][1]);
   EXPECT_TRUE((*read)[0][2]);
   EXPECT_FALSE((*read)[0][3]);
+}
+
+TEST(KinectText, TheNamesOfTheHeadingTellTheJoints) {
+  // The joints in the order of the alphabet; joint j is at x = 0.1 (j + 1).
+  constexpr const char* kNames[] = {"SpineBase",     "SpineMid",    "Neck",      "Head",          "ShoulderLeft",
+                                    "ElbowLeft",     "WristLeft",   "HandLeft",  "ShoulderRight", "ElbowRight",
+                                    "WristRight",    "HandRight",   "HipLeft",   "KneeLeft",      "AnkleLeft",
+                                    "FootLeft",      "HipRight",    "KneeRight", "AnkleRight",    "FootRight",
+                                    "SpineShoulder", "HandTipLeft", "ThumbLeft", "HandTipRight",  "ThumbRight"};
+  std::map<std::string, int> alphabet;
+  for (int j = 0; j < 25; ++j) alphabet[kNames[j]] = j;
+  for (const bool quaternions : {false, true}) {
+    std::string heading, row;
+    for (const auto& [name, j] : alphabet) {
+      for (const char* axis : {"X", "Y", "Z", "qx", "qy", "qz", "qw"}) {
+        if (axis[0] != 'q' || quaternions) heading += (heading.empty() ? "" : ",") + name + "_" + axis;
+      }
+      row += fmt::format("{}{},0.5,2{}", row.empty() ? "" : ",", 0.1 * (j + 1), quaternions ? ",0,0,0,1" : "");
+    }
+    ASSERT_OK(read, ReadKinectV2Text(heading + "\n" + row, "k.txt"));
+    for (std::size_t j = 0; j < 25; ++j) EXPECT_NEAR((*read)[0][j]->x, 0.1 * static_cast<double>(j + 1), 1e-12) << j;
+    const std::string other = "LeftUpLeg" + heading.substr(heading.find('_'));
+    EXPECT_TRUE(KinectComplaint(other + "\n" + row).starts_with("k.txt:1: the heading of column 1 is 'LeftUpLeg_X'"));
+  }
 }
 
 TEST(KinectText, NamesTheLineOfWhatItRefuses) {

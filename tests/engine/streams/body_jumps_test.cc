@@ -13,6 +13,7 @@
 #include "engine/streams/live_stream.h"
 #include "tests/engine/streams/small_files.h"
 #include "tests/support/kept_answers.h"
+#include "tests/support/random_clip.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -133,8 +134,10 @@ TEST(Streams, ClocksOfTicksAreRecognised) {
   const auto frames = [](const std::string& text) {
     return MakeStream(ReadStreamRecording(text, "s").value(), "s").value().stream.frames.size();
   };
-  // Ticks of 100 ns, from 0 and as .NET counts them since year 1; nanoseconds.
-  for (const auto& [first, step] : {std::pair(0.0, 333333.0), {6.38e17, 333333.0}, {0.0, 33333333.0}}) {
+  // Ticks of 100 ns, from 0, as .NET counts them since year 1, and as Windows counts them since 1601; nanoseconds, from
+  // 0 and since 1970.
+  for (const auto& [first, step] :
+       {std::pair(0.0, 333333.0), {6.38e17, 333333.0}, {1.34e17, 333333.0}, {0.0, 33333333.0}, {1.76e18, 33333333.0}}) {
     std::string text;
     std::istringstream lines(rows);
     int k = 0;
@@ -214,6 +217,29 @@ TEST(Streams, BodiesWithoutIdsAreToldApartByNearness) {
   EXPECT_THAT(RemarksOn(text),
               Contains("the file has 2 bodies; Etude reads body 0, because it moves most (2 bodies are in equally many "
                        "frames)"));
+}
+
+TEST(Streams, NeitherJitterNorAJumpMakesAStillBodyTheOneThatMovesMost) {
+  // A person waves in the last third of the recording. A chair 1.2 m aside jitters by 2 cm, and jumps once by 1 m.
+  constexpr int kFrames = 120;
+  BodyMotion person = WavingMotion(kFrames), chair = Aside([](int t) { return t < 60 ? 1.2 : 2.2; }, kFrames);
+  testing::Dice dice(3);
+  for (std::size_t t = 0; t < kFrames; ++t) {
+    if (t < 80) person.poses[t] = testing::StandingPose();
+    const glm::dvec3 at = chair.poses[t].joints[0];
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      chair.poses[t].joints[i] =
+          at + testing::StandingPose().joints[i] - testing::StandingPose().joints[0] + 0.02 * dice.Vector();
+    }
+  }
+  for (const bool is_first : {true, false}) {
+    const std::string text = is_first ? TwoWithoutIds(person, chair) : TwoWithoutIds(chair, person);
+    ASSERT_OK(read, ReadStreamRecording(text, "s"));
+    EXPECT_THAT(read->remarks, Contains(HasSubstr("because it moves most")));
+    for (std::size_t t = 0; t < kFrames; ++t) {
+      EXPECT_NEAR(read->frames[t].places[Index(Role::kHead)]->x, 0, 0.1) << is_first << t;
+    }
+  }
 }
 
 TEST(Streams, TwoBodiesThatExchangeTheirIdsAreReadOnAsTheSamePeople) {

@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
+#include "engine/streams/live_stream.h"
 #include "engine/streams/stream_maker.h"
 #include "tests/engine/streams/small_files.h"
 #include "tests/support/results.h"
@@ -280,6 +285,132 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
             std::vector<std::string>{"the file has 2 bodies; Etude reads body 1, because it is in the most frames"});
+}
+
+TEST(Streams, AJoinedPersonMayBeLostForThreeSecondsIfNobodyElseIsSeen) {
+  // Someone is lost from frame 40 on, and comes back under another id, `aside` metres away.
+  const auto text = [](int missing, double aside, bool has_other) {
+    std::string frames;
+    for (int t = 0; t < 160; ++t) {
+      const bool is_lost = t >= 40 && t < 40 + missing;
+      frames += fmt::format("{}\n", (is_lost ? 0 : 1) + (has_other ? 1 : 0));
+      if (!is_lost) frames += t < 40 ? NtuBody("11", 0) : NtuBody("22", aside);
+      if (has_other) frames += NtuBody("33", 3);
+    }
+    return "160\n" + frames;
+  };
+  const auto last_remark = [&](const std::string& file) {
+    return ReadStreamRecording(file, "s", {.body = 0})->remarks.back();
+  };
+  const std::string joined = "body 11 continues as body 22 from frame 80 on; Etude reads both as one person";
+  EXPECT_EQ(last_remark(text(40, 0.1, false)), joined);
+  // The remark counts the frames that show somebody else.
+  EXPECT_EQ(last_remark(text(40, 0.1, true)),
+            "the file has 3 bodies; Etude reads body 0; 120 of 160 frames show only other bodies");
+  EXPECT_EQ(last_remark(text(95, 0.1, false)),
+            "the file has 2 bodies; Etude reads body 0; 25 of 160 frames show only other bodies");
+  EXPECT_EQ(last_remark(text(40, 1, false)),
+            "the file has 2 bodies; Etude reads body 0; 80 of 160 frames show only other bodies");
+}
+
+/// The joints of a Kinect v1, in the order of its SDK.
+constexpr const char* kV1Names[] = {"HipCenter",  "Spine",     "ShoulderCenter", "Head",          "ShoulderLeft",
+                                    "ElbowLeft",  "WristLeft", "HandLeft",       "ShoulderRight", "ElbowRight",
+                                    "WristRight", "HandRight", "HipLeft",        "KneeLeft",      "AnkleLeft",
+                                    "FootLeft",   "HipRight",  "KneeRight",      "AnkleRight",    "FootRight"};
+
+/// Returns a Kinect v1's table with headings, whose k-th joint is joint `order[k]` of the SDK. `heading` makes the
+/// heading of a joint's axis.
+std::string NamedTable(const BodyMotion& motion, const std::vector<int>& order, bool has_clock,
+                       const std::function<std::string(std::string, char)>& heading) {
+  std::string text = has_clock ? "time" : "";
+  for (const int j : order) {
+    for (const char axis : {'x', 'y', 'z'}) text += (text.empty() ? "" : ",") + heading(kV1Names[j], axis);
+  }
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    text += "\n" + (has_clock ? fmt::format("{}", static_cast<double>(t) / 30) : "");
+    for (const int j : order) {
+      const glm::dvec3 p = KinectSpace(motion.poses[t].joints[static_cast<std::size_t>(j)]);
+      text += fmt::format("{}{},{},{}", text.ends_with('\n') ? "" : ",", p.x, p.y, p.z);
+    }
+  }
+  return text + "\n";
+}
+
+TEST(Streams, TheNamesOfAHeadingTellTheJointsOfAKinect) {
+  const BodyMotion motion = WavingMotion();
+  std::vector<int> sdk(20), legs_first;
+  for (int j = 0; j < 20; ++j) sdk[static_cast<std::size_t>(j)] = j;
+  for (const int j : {0, 12, 13, 14, 15, 16, 17, 18, 19, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}) legs_first.push_back(j);
+  const auto camel = [](const std::string& name, char axis) { return name + "_" + axis; };
+  const auto ours = [](const std::string& name, char axis) {
+    return fmt::format(
+        "position {}.{}",
+        RoleName(AllRoles()[static_cast<std::size_t>(std::ranges::find(kV1Names, name) - std::begin(kV1Names))]), axis);
+  };
+  const std::string said = "the heading names the joints in another order than the SDK's; Etude uses the names";
+  for (const bool has_clock : {false, true}) {
+    for (const auto& heading : {std::function<std::string(std::string, char)>(camel), {ours}}) {
+      const std::string other = NamedTable(motion, legs_first, has_clock, heading);
+      EXPECT_LT(FurthestFrom(motion, Made(other).stream), 1e-3) << other.substr(0, 80);
+      EXPECT_EQ(ReadStreamRecording(other, "s")->remarks, std::vector<std::string>{said});
+      EXPECT_TRUE(ReadStreamRecording(NamedTable(motion, sdk, has_clock, heading), "s")->remarks.empty());
+      // A live stream places the joints as the recording does.
+      LiveStream live("s", {}, {});
+      std::vector<SensedFrame> frames;
+      std::istringstream lines(other);
+      for (std::string line; std::getline(lines, line);) ASSERT_TRUE(live.Take(line, frames));
+      ASSERT_TRUE(live.Finish(frames));
+      ASSERT_EQ(frames.size(), motion.poses.size());
+      EXPECT_LT(FurthestFrom(motion, {.rate_hz = 30, .frames = frames}), 1e-3);
+    }
+  }
+  // Headings that name no joints leave the SDK's order.
+  int column = 0;
+  const auto numbered = [&](const std::string&, char axis) { return fmt::format("joint{}_{}", column++ / 3, axis); };
+  EXPECT_LT(FurthestFrom(motion, Made(NamedTable(motion, sdk, false, numbered)).stream), 1e-3);
+  EXPECT_LT(FurthestFrom(motion, Made("a recording of Anna\n" + KinectV1Text(motion)).stream), 1e-3);
+}
+
+TEST(Streams, AHeadingThatNamesOtherJointsIsRefused) {
+  const BodyMotion motion = WavingMotion(2);
+  std::vector<int> sdk(20);
+  for (int j = 0; j < 20; ++j) sdk[static_cast<std::size_t>(j)] = j;
+  const auto table = [&](const std::string& from, const std::string& to) {
+    const std::string text =
+        NamedTable(motion, sdk, true, [](const std::string& name, char axis) { return name + "_position_" + axis; });
+    std::string heading = text.substr(0, text.find('\n'));
+    for (std::size_t at = 0; (at = heading.find(from, at)) != std::string::npos; at += to.size()) {
+      heading.replace(at, from.size(), to);
+    }
+    return ComplaintOf(heading + text.substr(text.find('\n')));
+  };
+  EXPECT_EQ(table("KneeLeft", "LeftLeg")
+                .find("s:1: the heading of column 41 is 'LeftLeg_position_x', which names no "
+                      "joint of this Kinect; allowed: HipCenter, Spine, "),
+            0u)
+      << table("KneeLeft", "LeftLeg");
+  EXPECT_EQ(table("KneeLeft", "HipLeft").find("s:1: the headings of columns 38 and 41 both name HipLeft"), 0u);
+  EXPECT_EQ(table("KneeLeft_position_x,KneeLeft_position_y", "KneeLeft_position_y,KneeLeft_position_x")
+                .find("s:1: the headings of columns 41 to 43 are 'KneeLeft_position_y', 'KneeLeft_position_x' and "),
+            0u)
+      << table("KneeLeft_position_x,KneeLeft_position_y", "KneeLeft_position_y,KneeLeft_position_x");
+  EXPECT_EQ(table("time,", "").find("s:1: the heading names joints in 60 columns, but rows have 61 numbers"), 0u);
+}
+
+TEST(Streams, AFlatBodyIsRefusedBecauseItIsInPixels) {
+  // OpenPose's rows: x and y in pixels, Y down, and a score.
+  std::string rows;
+  for (const BodyPose& pose : WavingMotion(3).poses) {
+    for (int j = 0; j < 25; ++j) {
+      const glm::dvec3& p = pose.joints[static_cast<std::size_t>(j % 20)];
+      rows += fmt::format("{} {} {} ", 640 + 240 * p.x, 650 - 240 * p.y, 0.5 + 0.02 * (j % 20));
+    }
+    rows += '\n';
+  }
+  EXPECT_EQ(ComplaintOf(rows),
+            "s: the body is at most 0.0038 m deep in every frame; allowed: at least 0.01 m; are these pixels of a "
+            "picture, whose third number is a score?");
 }
 
 TEST(Streams, MarkersOfOtherNamesAreTold) {
