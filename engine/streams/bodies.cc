@@ -131,7 +131,7 @@ double Bodies::SpreadOf(const Body& body) {
     glm::dvec3 size(0);
     for (int axis = 0; axis < 3; ++axis)
       size[axis] = Quantile(medians[axis], 1 - kTail) - Quantile(medians[axis], kTail);
-    spread += glm::length(size);
+    spread += glm::dot(size, size);
   }
   return spread;
 }

@@ -58,9 +58,10 @@ class Bodies {
   /// The nearest pair is joined first, and a body continues at most one other body. A remark reports each pair.
   void JoinContinued(StreamRecording& recording);
 
-  /// Returns how far the joints move, summed over the joints, in the file's unit (ours): the diagonal of the box that
-  /// holds a joint's places, without the lowest and the highest 5 % along each axis. A place is the median of up to ten
-  /// frames, and a step by more than a trunk per frame is left out, so that neither jitter nor a jump counts as motion.
+  /// Returns how far the joints move, in squares of the file's unit (ours): the sum over the joints of the squared
+  /// diagonal of the box that holds the joint's places, without the lowest and the highest 5 % along each axis. A place
+  /// is the median of up to ten frames, and a step by more than a trunk per frame is left out, so that neither jitter
+  /// nor a jump counts as motion. Squares, because one waving hand is more motion than a little jitter of every joint.
   static double SpreadOf(const Body& body);
   static std::optional<double> GapInTrunks(const Seen& before, const Seen& after);
 

@@ -113,7 +113,7 @@ Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layou
 
 /// Brings the confidences to 0…1. Some estimators give percentages or raw scores without an upper limit, so a quantile
 /// decides. Without this, unsure keypoints would count as certain.
-void ScaleConfidences(PeopleOfFilm& film) {
+void ScaleConfidences(double given_scale, PeopleOfFilm& film) {
   constexpr double kQuantile = 0.75, kMaxOfScores = 1.2;  // scores of 0…1 may exceed 1 a little
   std::vector<double> confidences;
   const auto for_each = [&](const auto& take) {
@@ -129,12 +129,14 @@ void ScaleConfidences(PeopleOfFilm& film) {
   if (confidences.empty()) return;
   const double largest = std::ranges::max(confidences);
   double scale = LowerPercentile(std::move(confidences), kQuantile);
+  const bool is_given = scale > kMaxOfScores && given_scale > 0;
   if (scale <= kMaxOfScores) scale = 1;
+  if (is_given) scale = given_scale;
+  film.score_scale = scale;
   for_each([&](double& confidence) { confidence = std::min(confidence / scale, 1.0); });
   if (scale == 1) return;
-  film.Tell(
-      fmt::format("confidences reach {:.3g}; Etude takes {:.3g}, their third quartile, and all above it as certain",
-                  largest, scale));
+  film.Tell(fmt::format("confidences reach {:.3g}; Etude takes {:.3g}, {} third quartile, and all above it as certain",
+                        largest, scale, is_given ? "the films' largest" : "their"));
 }
 
 /// How the coordinates of a film's keypoints are distributed.
@@ -256,10 +258,17 @@ Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layo
     }
   }
   if (!film) return film;
-  ScaleConfidences(*film);
+  ScaleConfidences(of.score_scale, *film);
   film->doubt = DoubtOf(path, layout, of, film->frames);
   Denormalise(of, *film);
   return film;
+}
+
+double SharedScoreScale(double scale, std::span<const PeopleOfFilm> films) {
+  constexpr double kMaxRatio = 4;
+  double largest = 1;
+  for (const PeopleOfFilm& film : films) largest = std::max(largest, film.score_scale);
+  return scale > 1 && scale < largest && largest <= kMaxRatio * scale ? largest : 0;
 }
 
 Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {

@@ -21,21 +21,27 @@ Result<fs::path> EntryOf(const CaptureFilmsOptions& options, const FilmedView& v
 }
 
 /// Reads the keypoints or marks of all films. If the frame numbers of one film count from 1, so do those of a film
-/// whose numbers may count from 0 or from 1.
+/// whose numbers may count from 0 or from 1. The films share one scale of scores (SharedScoreScale): a film in which
+/// the person is seen badly then counts less than the others.
 Result<std::vector<PeopleOfFilm>> ReadFilms(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views) {
+  const auto read = [&](const FilmedView& view, bool from_one, double score_scale) -> Result<PeopleOfFilm> {
+    ASSIGN_OR_RETURN(const fs::path entry, EntryOf(options, view));
+    const FilmFacts& facts = view.facts;
+    const FilmOfKeypoints of{facts.width, facts.height, static_cast<std::size_t>(facts.frames), from_one, score_scale};
+    return options.marks.empty() ? ReadKeypoints(entry, options.layout, of) : ReadMarkedPictures(entry);
+  };
   std::vector<PeopleOfFilm> films;
-  for (const bool from_one : {false, true}) {
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (from_one && !films[i].is_base_open) continue;
-      ASSIGN_OR_RETURN(const fs::path entry, EntryOf(options, views[i]));
-      const FilmFacts& facts = views[i].facts;
-      const FilmOfKeypoints of{facts.width, facts.height, static_cast<std::size_t>(facts.frames), from_one};
-      ASSIGN_OR_RETURN(PeopleOfFilm film,
-                       options.marks.empty() ? ReadKeypoints(entry, options.layout, of) : ReadMarkedPictures(entry));
-      if (!from_one) films.emplace_back();
-      films[i] = std::move(film);
-    }
-    if (std::ranges::none_of(films, &PeopleOfFilm::is_from_one)) break;
+  for (const FilmedView& view : views) {
+    ASSIGN_OR_RETURN(films.emplace_back(), read(view, false, 0));
+  }
+  // Read again the films whose numbers or scores mean something else beside the other films.
+  const bool from_one = std::ranges::any_of(films, &PeopleOfFilm::is_from_one);
+  std::vector<double> scales;
+  for (const PeopleOfFilm& film : films) scales.push_back(SharedScoreScale(film.score_scale, films));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const bool is_other_base = from_one && films[i].is_base_open;
+    if (!is_other_base && scales[i] == 0) continue;
+    ASSIGN_OR_RETURN(films[i], read(views[i], is_other_base, scales[i]));
   }
   return films;
 }

@@ -277,11 +277,12 @@ TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
   ASSERT_OK(joined, ReadStreamRecording(text(0.1, 2), "s", {.body = 0}));
   EXPECT_EQ(shown(*joined), 19);
   EXPECT_EQ(joined->remarks.front(), "body 11 continues as body 22 from frame 13 on; Etude reads both as one person");
-  EXPECT_EQ(joined->remarks.back(), "the file has 2 bodies; Etude reads body 0");
+  EXPECT_EQ(joined->remarks.back(), "the file has 2 bodies; Etude reads body 0; 2 of 21 frames show only other bodies");
   // A person a metre aside is not joined to the first, nor is one who appears while the first is still seen.
   const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
   EXPECT_EQ(shown(*other), 11);
-  EXPECT_EQ(other->remarks, std::vector<std::string>{"the file has 3 bodies; Etude reads body 0"});
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"the file has 3 bodies; Etude reads body 0; 10 of 21 frames show "
+                                                     "only other bodies"});
   const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
   EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
             std::vector<std::string>{"the file has 2 bodies; Etude reads body 1, because it is in the most frames"});
@@ -403,13 +404,13 @@ TEST(Streams, AFlatBodyIsRefusedBecauseItIsInPixels) {
   std::string rows;
   for (const BodyPose& pose : WavingMotion(3).poses) {
     for (int j = 0; j < 25; ++j) {
-      const glm::dvec3& p = pose.joints[static_cast<std::size_t>(j % 20)];
-      rows += fmt::format("{} {} {} ", 640 + 240 * p.x, 650 - 240 * p.y, 0.5 + 0.02 * (j % 20));
+      const glm::dvec3& p = pose.joints[j == 20 ? Index(Role::kShoulderCentre) : static_cast<std::size_t>(j % 20)];
+      rows += fmt::format("{} {} {} ", 640 + 500 * p.x, 900 - 500 * p.y, 0.5 + 0.02 * (j % 20));
     }
     rows += '\n';
   }
   EXPECT_EQ(ComplaintOf(rows),
-            "s: the body is at most 0.0038 m deep in every frame; allowed: at least 0.01 m; are these pixels of a "
+            "s: the body is at most 0.00038 m deep in every frame; allowed: at least 0.01 m; are these pixels of a "
             "picture, whose third number is a score?");
 }
 

@@ -457,6 +457,29 @@ TEST_F(ReadPeople, ScoresAbove1AreScaledInEveryFormat) {
   }
 }
 
+// In one film, the person is seen half as well as in the other: all its keypoints count half.
+TEST_F(ReadPeople, FilmsShareTheScaleOfTheirScores) {
+  const auto file = [&](const std::string& name, double score) {
+    std::string points;
+    for (int i = 0; i < 17; ++i) points += fmt::format("{}{}, 20, {}", i == 0 ? "" : ", ", 10 + i, score);
+    return Write(name, R"([{"frame": 0, "keypoints": [)" + points + "]}]");
+  };
+  const auto dim = file("dim.json", 40);
+  std::vector<PeopleOfFilm> films;
+  for (const auto& path : {dim, file("bright.json", 80), file("share.json", 0.9), file("raw.json", 8)}) {
+    ASSERT_OK(film, ReadKeypoints(path, ""));
+    films.push_back(*film);
+  }
+  // A film of shares and one of raw scores are other estimators'; the largest scale stays.
+  std::vector<double> shared;
+  for (const PeopleOfFilm& film : films) shared.push_back(SharedScoreScale(film.score_scale, films));
+  EXPECT_EQ(shared, (std::vector<double>{80, 0, 0, 0}));
+  ASSERT_OK(film, ReadKeypoints(dim, "", {.score_scale = 80}));
+  EXPECT_EQ(film->frames.at(0).at(0)[Landmark::kNose].confidence, 0.5);
+  EXPECT_EQ(film->told,
+            "confidences reach 40; Etude takes 80, the films' largest third quartile, and all above it as certain");
+}
+
 TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
   const auto list = [&](const std::string& key) {
     std::string points;
