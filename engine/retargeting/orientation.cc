@@ -1,6 +1,7 @@
 #include "engine/retargeting/orientation.h"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
+#include "engine/retargeting/leg_sides.h"
 
 namespace etude {
 namespace {
@@ -26,8 +28,6 @@ glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Directio
 glm::dvec3 Forward(const BodyPose& pose) {
   return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
 }
-
-glm::dvec3 Toe(const BodyPose& pose, Role ankle, Role toe) { return Direction(pose[toe] - pose[ankle]); }
 
 double LimbLength(const BodyPose& pose, Role upper, Role middle, Role end) {
   return glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
@@ -54,8 +54,9 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
 /// Evidence that left and right are not exchanged. It is measured in the body's own frame, so the body may lie or turn
 /// over.
 struct Sides {
-  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if not exchanged
-  std::vector<double> knee_bends;                       ///< result of Bend for left and right knee in each frame
+  double shoulders = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if not exchanged
+  LegSides legs;
+  std::vector<double> knee_bends;  ///< result of Bend for left and right knee in each frame
 };
 
 Sides MeasureSides(std::span<const BodyPose> poses) {
@@ -65,7 +66,7 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
     sides.shoulders += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
     for (const auto& [hip, knee, ankle, toe] : {std::tuple(kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot),
                                                 std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
-      sides.toes += glm::dot(forward, Toe(pose, ankle, toe));
+      sides.legs.Add(pose[kLeftHip] - pose[kRightHip], pose[hip], pose[knee], pose[ankle], pose[toe]);
       sides.knees += glm::dot(forward, BendOffset(pose, hip, knee, ankle));
       sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
     }
@@ -106,14 +107,12 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   if (sides.shoulders < 0) {
     return Fail({file}, "the left arm is on the side of the right leg, so left and right are exchanged");
   }
-  // Compare each threshold with a mean over limbs and frames. A threshold of zero would be too strict: the feet of a
-  // lying body, for example, point slightly backwards.
-  constexpr double kBackwards = 0.35;
-  const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
-  if (has_feet && sides.toes < -kBackwards * count) {
-    return Fail({file}, "the feet point backwards, so left and right are exchanged, or the axes are left-handed");
+  if (const std::string_view backwards = sides.legs.Backwards(); has_feet && !backwards.empty()) {
+    return Fail({file}, "{}, so left and right are exchanged, or the axes are left-handed", backwards);
   }
+  // Compare each threshold with a mean over limbs and frames.
+  const auto count = static_cast<double>(2 * poses.size());
   constexpr double kArmsBackwards = 0.25;
   if (!has_feet && sides.arms < -kArmsBackwards * count) {
     return Fail({file},

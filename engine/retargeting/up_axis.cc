@@ -68,6 +68,9 @@ bool Overrules(const AxisStance& other, const AxisStance& usual, bool is_opposit
   if (is_opposite && other.on_hands <= 0.5 && rule.evidence != UpEvidence::kPosture) return true;
   // Accept `other` if the body walks perpendicular to it.
   if (Walks(other)) return true;
+  // Keep a stated axis if the body lies along `other` on a floor at height 0.
+  constexpr double kLow = 0.005, kHigh = 0.08;
+  if (rule.evidence != UpEvidence::kPosture && usual.lowest > kLow && usual.lowest + usual.floor < kHigh) return false;
   if (rule.is_of_rest) return false;
   // Accept `other` if, with `other` as the up axis, the body stands on its feet, and either the lowest joint's height
   // varies less than with the usual axis or the body is still.
@@ -150,6 +153,10 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
     best = &axis;
     is_seated = !overrules;
   }
+  // AMASS has a floor at height 0. A body that is never upright is on that floor, or on something as high as a bed.
+  constexpr double kBelowFloor = -0.08, kAboveBeds = 0.45;
+  const bool is_off_floor = usual.lowest + usual.floor < kBelowFloor || usual.lowest > kAboveBeds;
+  const bool has_floor = rule.evidence == UpEvidence::kFormat && rule.axis.z > 0;
   // Take the axis `best` if the rule's axis is only a guess (kPosture), unless a body that seems to sit along `best`
   // may lie on one side. If the file or its format states the axis, keep that axis and report the contradiction.
   constexpr double kMostly = 0.5;
@@ -168,6 +175,11 @@ UpFinding FindUp(std::span<const BodyPose> all, double rate_hz, const UpRule& ru
         fmt::format("{}, but the body sits along {}, or lies with bent hips and knees", usually, AxisName(*best));
   } else if (best != nullptr) {
     found.doubt = fmt::format("the body stands along {}, but {}", AxisName(*best), usually);
+  } else if (has_floor && is_off_floor && usual.upright < kHardlyEver) {
+    found.doubt = fmt::format(
+        "{}, but the body is never upright along it, and its lowest joint is {:.2g} times its height {} height 0; the "
+        "file may be in a camera's frame, or Y may be up",
+        usually, std::abs(usual.lowest), usual.lowest < 0 ? "below" : "above");
   } else if (is_guess && usual.upright < kHardlyEver) {
     found.doubt =
         fmt::format("the posture never shows clearly which axis is up; {}, so Etude assumes this axis", usually);

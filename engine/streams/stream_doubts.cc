@@ -1,7 +1,10 @@
 #include "engine/streams/stream_doubts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "engine/retargeting/exchanged_sides.h"
@@ -53,12 +56,11 @@ std::optional<UpRule> StatedUp(const StreamRecording& recording, const StreamOpt
 }
 
 StreamDoubts DoubtsOf(const SkeletonStream& stream, const std::optional<UpRule>& up) {
-  constexpr double kBackwards = -0.35;  // the threshold that CheckSides uses for clips
-  const auto feet = FeetForward(stream);
+  const std::string_view backwards = LegsOf(stream).Backwards();
   const std::vector<BodyPose> poses = ShownPoses(stream);
   return {up ? FindUp(poses, stream.rate_hz, *up).doubt : "",
           DescribeExchangedJoints(TrackedJoints(stream), stream.rate_hz),
-          feet && *feet < kBackwards ? "the feet point backwards, so the stream may be mirrored (--reflect)" : "",
+          backwards.empty() ? "" : fmt::format("{}, so the stream may be mirrored (--reflect)", backwards),
           DescribeImpossibleHeight(poses)};
 }
 

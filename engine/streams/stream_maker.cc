@@ -20,12 +20,31 @@ using enum Role;
 constexpr double kMaxTilt = Radians(30), kMaxDifference = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
 
-/// Returns the trunk's median direction: the median of each coordinate over the frames, normalised.
+/// Returns the distance from the head to the midpoint of the ankles; nullopt if a joint is missing.
+std::optional<double> HeadToAnkles(const RecordedFrame& frame) {
+  const auto &head = frame.places[Index(kHead)], &left = frame.places[Index(kLeftAnkle)],
+             &right = frame.places[Index(kRightAnkle)];
+  if (!head || !left || !right) return std::nullopt;
+  return glm::distance(*head, 0.5 * (*left + *right));
+}
+
+/// Returns the trunk's median direction: the median of each coordinate, normalised. Who squats or bows leans forwards.
+/// So if the body comes down by more than a seventh of its height, only the frames count in which it is tall, or in
+/// which its height is unknown.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
-  std::vector<double> axes[3];
+  constexpr double kTall = 0.95, kDown = 6.0 / 7;
+  std::vector<double> heights, axes[3];
+  for (const RecordedFrame& frame : frames) {
+    if (const auto height = HeadToAnkles(frame)) heights.push_back(*height);
+  }
+  double tall = 0;
+  if (!heights.empty()) {
+    const double usual = LowerPercentile(heights, 0.9);
+    if (LowerPercentile(std::move(heights), 0.1) < kDown * usual) tall = kTall * usual;
+  }
   for (const RecordedFrame& frame : frames) {
     const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)];
-    if (!hips || !neck || *hips == *neck) continue;
+    if (!hips || !neck || *hips == *neck || HeadToAnkles(frame).value_or(tall) < tall) continue;
     const glm::dvec3 up = glm::normalize(*neck - *hips);
     for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(up[axis]);
   }
@@ -283,24 +302,21 @@ Result<MadeStream> MakeStream(const StreamRecording& recording, const std::strin
   return made;
 }
 
-std::optional<double> FeetForward(const SkeletonStream& stream) {
-  double sum = 0;
-  int feet = 0;
+LegSides LegsOf(const SkeletonStream& stream) {
+  LegSides legs;
   for (const SensedFrame& frame : stream.frames) {
     if (!frame.body_seen) continue;
-    const glm::dvec3 across = frame[kLeftHip].position - frame[kRightHip].position;
-    const glm::dvec3 up = frame[kShoulderCentre].position - frame[kHipCentre].position;
-    const glm::dvec3 forward = glm::cross(across, up);
-    if (glm::length(forward) < 1e-6) continue;
-    for (const auto& [ankle, toe] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
-      const glm::dvec3 foot = frame[toe].position - frame[ankle].position;
-      const bool is_seen = frame[toe].state == TrackingState::kTracked && frame[ankle].state == TrackingState::kTracked;
-      if (!is_seen || glm::length(foot) < 1e-6) continue;
-      sum += glm::dot(glm::normalize(forward), glm::normalize(foot));
-      ++feet;
+    const glm::dvec3 left = frame[kLeftHip].position - frame[kRightHip].position;
+    for (const auto& [hip, knee, ankle, toe] : {std::array{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+                                                std::array{kRightHip, kRightKnee, kRightAnkle, kRightFoot}}) {
+      const bool is_seen = std::ranges::all_of(std::array{knee, ankle, toe},
+                                               [&](Role role) { return frame[role].state == TrackingState::kTracked; });
+      if (is_seen) {
+        legs.Add(left, frame[hip].position, frame[knee].position, frame[ankle].position, frame[toe].position);
+      }
     }
   }
-  return feet > 0 ? std::optional(sum / feet) : std::nullopt;
+  return legs;
 }
 
 }  // namespace etude

@@ -8,6 +8,7 @@
 
 #include "engine/base/result.h"
 #include "engine/recognition/skeleton_stream.h"
+#include "engine/retargeting/leg_sides.h"
 #include "engine/retargeting/orientation.h"
 #include "engine/streams/recording.h"
 
@@ -104,9 +105,7 @@ struct MadeStream {
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 
-/// Returns the cosine of the angle between a foot and the facing direction, as a mean over feet and frames. The facing
-/// direction follows from the body's left and right. +1: feet point straight ahead; −1: backwards, as in a mirrored
-/// recording. Returns nullopt if no foot was tracked.
-std::optional<double> FeetForward(const SkeletonStream& stream);
+/// Returns the evidence of the legs whose knee, ankle and toe are tracked.
+LegSides LegsOf(const SkeletonStream& stream);
 
 }  // namespace etude

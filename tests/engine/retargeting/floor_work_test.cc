@@ -105,6 +105,13 @@ BodyPose LyingAway(double time_s) {
   return pose;
 }
 
+/// Lies stretched out on the back, in the pose of a person who stands straight, and hardly moves.
+BodyPose LyingStraight(double time_s) {
+  BodyPose pose = Standing();
+  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .03 + .001 * std::sin(time_s), 0); });
+  return pose;
+}
+
 /// Lies on a bed; only the arms move.
 BodyPose LyingInBed(double time_s) {
   BodyPose pose = LyingAway(time_s);
@@ -420,6 +427,43 @@ TEST(FloorWork, PeopleWhoSquatOrBowInOnePlaceAreUprightWhateverTheirFacing) {
     for (int quarters = 0; quarters < 4; ++quarters) {
       EXPECT_EQ(FindUp(Film(act, quarters, false), kRate_hz, JointCsvUp()).doubt, "") << act.name << quarters;
       EXPECT_EQ(AxisName(FindUp(Film(act, quarters, false), kRate_hz, TrcUp()).axis), "Y") << act.name << quarters;
+    }
+  }
+}
+
+TEST(FloorWork, WhoIsStretchedOutOnTheFloorDoesNotStandAlongAnotherAxis) {
+  const Act lying = {"lying still", &LyingStraight};
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    EXPECT_EQ(FindUp(Film(lying, quarters, false), kRate_hz, C3dUp('Y', false)).doubt, "") << quarters;
+    EXPECT_EQ(FindUp(Film(lying, quarters, true), kRate_hz, AmassUp()).doubt, "") << quarters;
+    // The control: the same body far above the floor.
+    std::vector<BodyPose> above = Film(lying, quarters, false);
+    for (BodyPose& pose : above) Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, 2, 0); });
+    EXPECT_THAT(FindUp(above, kRate_hz, C3dUp('Y', false)).doubt, HasSubstr("the body stands along")) << quarters;
+  }
+}
+
+TEST(FloorWork, OfAmassFarFromItsFloorIsDoubtedIfTheBodyIsNeverUpright) {
+  const auto doubt = [](const Act& act, double degrees, double away) {
+    // The frame of a camera that looks down by some degrees: Y down, Z ahead.
+    std::vector<BodyPose> poses = Film(act, 0, false);
+    for (BodyPose& pose : poses) {
+      Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 180 + degrees) + glm::dvec3(0, 1, away); });
+    }
+    return FindUp(poses, kRate_hz, AmassUp()).doubt;
+  };
+  for (const double degrees : {0.0, 12.0, 25.0, 35.0}) {
+    EXPECT_NE(doubt({"standing", &StandingStill}, degrees, 6), "") << degrees;
+    EXPECT_NE(doubt({"bouncing", &Bouncing}, degrees, 6), "") << degrees;
+  }
+  EXPECT_THAT(doubt({"standing", &StandingStill}, 25, 6),
+              HasSubstr("the body is never upright along it, and its lowest joint is"));
+  // Controls: people who lie or work on the floor of AMASS, or in a bed.
+  for (const Act& act : {Act{"lying", &LyingAway}, Act{"lying still", &LyingStraight}, Act{"in bed", &LyingInBed},
+                         Act{"push-ups", &PushingUp}, Act{"crawling", &Crawling}, Act{"sit-ups", &DoingSitUps},
+                         Act{"bench press", &PressingOnABench}, Act{"standing", &StandingStill}}) {
+    for (int quarters = 0; quarters < 4; ++quarters) {
+      EXPECT_EQ(FindUp(Film(act, quarters, true), kRate_hz, AmassUp()).doubt, "") << act.name << quarters;
     }
   }
 }

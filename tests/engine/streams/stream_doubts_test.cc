@@ -119,6 +119,20 @@ TEST(StreamDoubts, ALiveStreamIsDoubtedOnceAfterItsFirstSecond) {
       << "at its end";
 }
 
+TEST(StreamDoubts, KneelersAreMirroredOnlyIfTheyAre) {
+  BodyMotion kneeling = testing::WavingMotion(90);
+  for (BodyPose& pose : kneeling.poses) {
+    for (const auto& [knee, ankle, toe] : {std::array{Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
+                                           std::array{Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}}) {
+      pose[ankle] = pose[knee] - glm::dvec3(0, 0, 0.4);
+      pose[toe] = pose[ankle] - glm::dvec3(0, 0.02, 0.15);
+    }
+  }
+  EXPECT_EQ(DoubtsOfFile(WriteJointCsv(kneeling))[2], "");
+  EXPECT_EQ(DoubtsOfFile(WriteJointCsv(kneeling), {.reflects = true})[2],
+            "the knees bend backwards, so the stream may be mirrored (--reflect)");
+}
+
 TEST(StreamDoubts, AMirroredSensorsRateAndTiltAreSaidLive) {
   BodyMotion mirrored = testing::WavingMotion(150);
   for (BodyPose& pose : mirrored.poses) {

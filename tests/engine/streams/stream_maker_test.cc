@@ -74,7 +74,7 @@ TEST(StreamMaker, ATiltedSensorIsLevelledByTheTrunkAndTheFloorByTheFeet) {
     EXPECT_EQ(made->level.up_by, StreamLevel::By::kTrunk);
     EXPECT_NEAR(made->stream.frames[0][Role::kHipCentre].position.y, 0.95, 1e-6);
     EXPECT_NEAR(made->stream.frames[0][Role::kHead].position.y, 1.65, 1e-6);
-    EXPECT_GT(*FeetForward(made->stream), 0.8);
+    EXPECT_GT(*LegsOf(made->stream).FeetForward(), 0.8);
   }
 }
 
@@ -154,14 +154,38 @@ TEST(StreamMaker, FeetThatStoodInSeveralPlacesTellTheFloorBetterThanALeaningTrun
   EXPECT_NEAR(level.tilt_deg, 8, 1e-6);
 }
 
+TEST(StreamMaker, SquatsAndBowsAreNoTiltOfTheSensor) {
+  for (const double tilt_deg : {0.0, 10.0}) {
+    for (const double duty : {0.0, 0.4, 0.7, 1.0}) {
+      BodyMotion motion;
+      for (int t = 0; t < 180; ++t) {
+        // In each period of 3 s, the body leans by up to 35° and comes down, during the share `duty`.
+        const double phase = (t % 90) / 90.0;
+        const double depth = phase < duty ? 0.5 - 0.5 * std::cos(2 * kPi * phase / duty) : 0;
+        BodyPose pose = StandingPose();
+        for (glm::dvec3& joint : pose.joints) {
+          const double above = std::max(0.0, joint.y - 0.6), lean = Radians(35) * depth;
+          if (joint.y <= 0.6) continue;
+          joint = {joint.x, 0.6 - 0.3 * depth + std::cos(lean) * above, std::sin(lean) * above};
+        }
+        motion.poses.push_back(pose);
+      }
+      ASSERT_OK(recording, ReadStreamRecording(KinectV1Text(motion, "", Radians(tilt_deg)), "s"));
+      const StreamLevel level = EstimateLevel(recording->frames, 30);
+      EXPECT_NEAR(level.tilt_deg, tilt_deg, duty < 1 ? 1e-6 : 3) << duty;
+      EXPECT_NEAR(level.floor_m, -1, duty < 1 ? 1e-6 : 0.15) << duty;
+    }
+  }
+}
+
 TEST(StreamMaker, AMirroredRecordingIsNoticedByItsFeetAndMendedByReflection) {
   StreamRecording recording = Recorded(WavingMotion());
   for (RecordedFrame& frame : recording.frames) {
     for (auto& place : frame.places) place->x = -place->x;
   }
-  EXPECT_LT(*FeetForward(StreamOf(recording)), -0.8);
+  EXPECT_LT(*LegsOf(StreamOf(recording)).FeetForward(), -0.8);
   const SkeletonStream mended = StreamOf(recording, {.reflects = true});
-  EXPECT_GT(*FeetForward(mended), 0.8);
+  EXPECT_GT(*LegsOf(mended).FeetForward(), 0.8);
   EXPECT_NEAR(mended.frames[15][Role::kLeftHand].position.y, 1.7, 1e-3);
 }
 

@@ -60,7 +60,7 @@ void Tell(std::vector<std::string>& told, const std::string& text, const StreamR
       head /= static_cast<double>(made->stream.frames.size());
       told.push_back(fmt::format("  from {:.3f} s {} frames, {} lost, head {:.4f} {:.4f} {:.4f}, feet {:.3f}; {}",
                                  made->start_s, made->stream.frames.size(), made->lost_frames, head.x, head.y, head.z,
-                                 FeetForward(made->stream).value_or(0), Describe(made->level)));
+                                 LegsOf(made->stream).FeetForward().value_or(0), Describe(made->level)));
     }
   }
   LiveStream live("s", reading, {});
