@@ -12,7 +12,7 @@ _HOMES = {
     "etude.results": ("load", "Run", "Table", "Column", "Pairs", "Answer", "Verdict", "Motion", "Series"),
     "etude.catalogue": ("metrics", "joints"),
     "etude.commands": ("run", "report", "gate", "compare", "score"),
-    "etude.evaluation": ("evaluate", "DoubtWarning"),
+    "etude.evaluation": ("evaluate", "DoubtWarning", "LimitWarning"),
     "etude.conversation": ("method", "metric", "serve", "NoAnswer"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

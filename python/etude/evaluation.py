@@ -18,6 +18,10 @@ class DoubtWarning(UserWarning):
     """Something looks wrong in a judged file or array, such as its up axis, its unit or its sides."""
 
 
+class LimitWarning(UserWarning):
+    """A motion exceeds the limits that were given to evaluate(alone=True, limits=…)."""
+
+
 def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, people=None, lag=None, statistics=None,
              music_beats=None, metrics=(), alone=False, floor=None, limits=None, output=None, overwrite=False, jobs=None,
              progress=True, program=None, unit=None, up=None, **answers):
@@ -34,8 +38,9 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     keep the limits. output: the result folder; by default the first free folder of out/evaluate-1, out/evaluate-2, …
 
     Raises EtudeError, also if a method has no answer that can be judged; the error's `run` is then set. Raises
-    TypeError or ValueError for arguments that cannot be used, before anything is written. Warns of pairs that are not
-    judged, and with a DoubtWarning of what looks wrong in the motions.
+    TypeError or ValueError for arguments that cannot be used, before anything is written. Warns of pairs and
+    motions that are not judged, with a LimitWarning of motions beyond the limits, and with a DoubtWarning of what looks
+    wrong in the motions.
     """
     output = _free_folder(overwrite) if output is None else pathlib.Path(output)
     if alone and (truth is not None or pairs is not None or not answers):
@@ -83,7 +88,8 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
     kinds = {}
-    for doubt in json.loads(printed)["doubts"]:  # "METHOD, CLIP: DOUBT", or "CLIP: the truth: DOUBT"
+    facts = json.loads(printed)
+    for doubt in facts["doubts"]:  # "METHOD, CLIP: DOUBT", or "CLIP: the truth: DOUBT"
         whose, _, text = doubt.partition(": ")
         method = "" if text.startswith("the truth: ") else whose.partition(", ")[0]
         kinds.setdefault((method, re.sub(r"[\d.]+", "", text)), []).append(doubt)  # but for numbers, one kind
@@ -100,6 +106,13 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
             raise EtudeError("a method has no answer that can be judged: " + silent[0], code, printed + said, found)
         if missed and not alone:
             warnings.warn(f"{len(missed)} of {len(rows)} pairs are not judged: {said_of[0]}", stacklevel=2)
+    if alone:
+        counts = f"of {sum(status != 'skipped' for status in found['evaluate']['status'])} motions"
+        if facts["not_judged"]:
+            warnings.warn(f"{len(facts['not_judged'])} {counts} are not judged: {facts['not_judged'][0]}", stacklevel=2)
+        if facts.get("beyond_limits"):
+            warnings.warn(f"{len(facts['beyond_limits'])} {counts} are beyond the limits: {facts['beyond_limits'][0]}",
+                          LimitWarning, stacklevel=2)
     return found
 
 

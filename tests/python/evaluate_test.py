@@ -104,6 +104,22 @@ class Evaluate(PythonCase):
         self.assertEqual([rows[name]["within_limits"] for name in ("low", "high")], [1, 0])
         self.assertEqual({file.suffix for file in (self.folder / "run.motions").iterdir()}, {".npz"})
 
+    def test_motions_beyond_the_limits_or_not_judged_are_warned_of(self):
+        for name, up in ("good", 0), ("high", 0.3):
+            motion = [[[x, y + up, z] for x, y, z in frame] for frame in standing(20)]
+            (self.folder / f"{name}.npz").write_bytes(_npz(motion, NAMES, 30, {}, name))
+        (self.folder / "bad.npz").write_text("no motion")
+        given = {"alone": True, "mine": self.folder, "overwrite": True, "output": self.folder / "run", "progress": False}
+        with self.assertWarnsRegex(UserWarning, "1 of 3 motions are not judged: mine, bad: "):
+            etude.evaluate(**given)
+        with self.assertWarnsRegex(etude.LimitWarning, "1 of 3 motions are beyond the limits: mine, high: "):
+            etude.evaluate(limits="recorded", **given)
+        (self.folder / "bad.npz").unlink()
+        (self.folder / "high.npz").unlink()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            etude.evaluate(limits="recorded", **given)
+
     def test_arrays_have_the_unit_and_the_axis_that_are_told(self):
         found = [[[100 * x, -100 * z, 100 * y] for x, y, z in frame] for frame in standing(20)]
         run = etude.evaluate(found, mine=found, names=NAMES, rate_hz=30, unit="cm", up="z", output=self.folder / "cm", progress=False)
