@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "engine/base/utf8.h"
@@ -151,6 +152,30 @@ class DocumentCheck : public YAML::EventHandler {
   int values = 0;
 };
 
+/// Returns why a text has more than one document. YAML also ends a document before a line that is indented less than
+/// the document's first line.
+Error WhySecondDocument(std::string_view text, const std::string& file) {
+  std::optional<std::size_t> first;  // the indentation of the first line
+  int first_line = 0;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string_view::npos || line[indent] == '#' || line[indent] == '\r') continue;
+    const bool is_mark = line.starts_with("---") || line.starts_with("...") || line.starts_with('%');
+    if (is_mark && !first) continue;
+    if (is_mark) break;
+    if (!first) first_line = number;
+    if (!first) first = indent;
+    if (indent < *first) {
+      return {{file, number, 0},
+              fmt::format("is indented less than the first line, which is line {}; allowed: the same indentation",
+                          first_line)};
+    }
+  }
+  return {{file, 0, 0}, "found more than one YAML document (---); allowed: one"};
+}
+
 }  // namespace
 
 const Node* Node::Find(std::string_view key) const {
@@ -179,7 +204,7 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
       return Fail(builder.At(survey.alias), "aliases (*name) are not supported; write the value itself");
     if (survey.values > kMaxValues)
       return Fail(whole, "found {} values; allowed: at most {}", survey.values, kMaxValues);
-    if (parser.HandleNextDocument(survey)) return Fail(whole, "found more than one YAML document (---); allowed: one");
+    if (parser.HandleNextDocument(survey)) return tl::unexpected(WhySecondDocument(text, file));
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {
     return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);

@@ -136,6 +136,9 @@ TEST(Document, SurvivesEveryTruncationAndManyMutations) {
 
 TEST(Document, RefusesASecondDocumentAndMoreValuesThanItLoadsQuickly) {
   EXPECT_THAT(Complaint("speed: 1\n---\nspeed: 2\n"), HasSubstr("more than one YAML document"));
+  EXPECT_THAT(Complaint("---\nspeed: 1\n---\n# and\nspeed: 2\n"), HasSubstr("more than one YAML document"));
+  EXPECT_THAT(Complaint("# a test\n\n speed: 1\n\nturns: 2\n"),
+              HasSubstr(":5: is indented less than the first line, which is line 3; allowed: the same indentation"));
   std::string many;
   for (int i = 0; i < 6000; ++i) many += fmt::format("a{}: 1\n", i);
   EXPECT_THAT(Complaint(many), HasSubstr("allowed: at most 10000"));
