@@ -12,6 +12,16 @@ namespace {
 
 constexpr std::size_t kMaxNameLength = 200;
 
+/// Returns "NaN", "Infinity" or "-Infinity" if the parser stopped at this word, which some programs write as a number;
+/// else "". `byte` is counted from 1.
+std::string_view NonFiniteAt(std::string_view line, std::size_t byte) {
+  for (const std::string_view word : {"-Infinity", "Infinity", "NaN"}) {
+    const std::size_t at = line.rfind(word, byte);
+    if (at != std::string_view::npos && byte <= at + word.size()) return word;
+  }
+  return "";
+}
+
 /// Parses a line, which must be a JSON object with a text at `type`.
 Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kMaxReplyDepth) {
@@ -22,6 +32,8 @@ Result<Json> ReadMessage(const std::string& line) {
   if (parsed.fault && parsed.fault->is_large_number)
     return Fail({}, "wrote a number that is too large: {}", Printable(line));
   if (parsed.fault) {
+    if (const std::string_view word = NonFiniteAt(line, parsed.fault->byte); !word.empty())
+      return Fail({}, "its message contains {}, which is not JSON; allowed: finite numbers", word);
     const std::size_t start = parsed.fault->byte > 40 ? parsed.fault->byte - 40 : 0;
     const std::string where = start == 0 ? "" : fmt::format(" near byte {}", parsed.fault->byte);
     return Fail({}, "wrote something that is not JSON{}: {}", where,

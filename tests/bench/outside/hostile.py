@@ -56,6 +56,10 @@ def prints_garbage(problem):
     write("loading model \x1b[1m100%\x1b[0m\n")
 
 
+def answers_minus_infinity(problem):
+    write('{"type": "answer", "id": "%s", "answer": {"number": [1, -Infinity]}}\n' % problem["id"])
+
+
 def answers_nan(problem):
     write('{"type": "answer", "id": "%s", "answer": {"number": NaN}}\n' % problem["id"])
 
