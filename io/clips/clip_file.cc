@@ -49,6 +49,10 @@ class CappedReader {
       return Fail({path.string(), 0, 0}, "found {} MB; allowed: at most {} MB for a motion and its files together",
                   (size + 999'999) / 1'000'000, kMaxClipFileBytes / 1'000'000);
     }
+    if (fs::is_directory(path, not_there)) {
+      return Fail({path.string()}, "is no file, but a folder; allowed: a file, or a pattern in quotes such as '{}'",
+                  (path / "*.bvh").string());
+    }
     auto bytes = ReadWholeFile(path);
     if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
     return bytes;

@@ -67,6 +67,10 @@ tl::unexpected<Error> WhyNot(const Walk& walk, const FilePath& path, bool makes)
   return CannotRead(walk.stopped_at.string(), "cannot be opened", walk.reason);
 }
 
+tl::unexpected<Error> RefuseFolder(const FilePath& path) {
+  return Fail({path.string()}, "is no file, but a folder; allowed: a file");
+}
+
 Result<void> MakeGiven(const fs::path& folder) {
   if (folder.empty()) return {};  // the path names a file in the working folder
   std::error_code error;
@@ -118,12 +122,15 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
     const int reason = errno;
     if (path.is_inside() && IsLink(spot.folder(), spot.name())) return RefuseLink(path.whole());
     if (reason == ENOENT) return Fail({path.string()}, "no such file");
-    if (reason == EISDIR || reason == ENXIO) return Fail({path.string()}, "is no file");
+    if (reason == EISDIR) return RefuseFolder(path);
+    if (reason == ENXIO) return Fail({path.string()}, "is no file");
     return (flags & O_ACCMODE) == O_RDONLY ? CannotRead(path.string(), "cannot read this file", reason)
                                            : CannotWrite(path.string(), "cannot write this file", reason);
   }
   struct stat status {};
-  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
+  if (::fstat(file.number(), &status) != 0) return Fail({path.string()}, "is no file");
+  if (S_ISDIR(status.st_mode)) return RefuseFolder(path);
+  if (!S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
   if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
     return Fail({path.string()},
                 "the file has a second name (a hard link), and writing would also change the file of the second name");

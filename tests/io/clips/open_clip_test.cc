@@ -221,7 +221,11 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
             "a table that begins with 'frame,x,y,z': for joint positions, use columns such as left_wrist_x_m"}}) {
     EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
   }
-  EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
+  EXPECT_NE(Complaint(folder_.path().string())
+                .find("is no file, but a folder; allowed: a file, or a pattern in quotes "
+                      "such as '" +
+                      In("*.bvh") + "'"),
+            std::string::npos);
   EXPECT_NE(Complaint(In("none.bvh")).find("no such file"), std::string::npos);
 }
 

@@ -105,7 +105,7 @@ TEST(TemporaryFolders, GoAwayWithAllThatIsInThem) {
 
 TEST(Files, SayWhyTheyCannotBeReadOrWritten) {
   EXPECT_THAT(ToString(ReadWholeFile("/no/such/file").error()), HasSubstr("/no/such/file: no such file"));
-  EXPECT_THAT(ToString(ReadWholeFile("/tmp").error()), HasSubstr("/tmp: is no file"));
+  EXPECT_THAT(ToString(ReadWholeFile("/tmp").error()), HasSubstr("/tmp: is no file, but a folder; allowed: a file"));
   EXPECT_THAT(ToString(WriteFileAtomically("/dev/null/x", "").error()), HasSubstr("Not a directory"));
 }
 
