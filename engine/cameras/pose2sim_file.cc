@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/names.h"
 #include "engine/base/text.h"
 #include "engine/cameras/opencv_file.h"
 
@@ -86,13 +87,27 @@ bool AddNumbers(const toml::node& value, std::vector<double>& numbers) {
 
 using Values = std::map<std::string, std::vector<double>>;
 
+/// Returns a key of the table that may be a misspelling of `wanted`: a key near it or its beginning; "" if there is
+/// none.
+std::string MisspeltKey(const toml::table& keys, const std::string& wanted) {
+  std::vector<std::string> others;
+  for (const auto& [key, value] : keys) others.emplace_back(key.str());
+  const auto beginning =
+      std::ranges::find_if(others, [&](const std::string& key) { return key.size() >= 3 && wanted.starts_with(key); });
+  return beginning != others.end() ? *beginning : NearestName(wanted, others);
+}
+
 /// Returns the lists of numbers that a camera's table must have. A count of 0 allows lists of any length.
 Result<Values> ValuesOf(const std::string& name, const toml::table& keys,
                         const std::map<std::string, std::size_t>& counts) {
   Values values;
   for (const auto& [key, count] : counts) {
     const toml::node* value = keys.get(key);
-    if (value == nullptr) return Fail(PlaceOf(keys), "camera {} has no {}", name, key);
+    if (value == nullptr) {
+      const std::string near = MisspeltKey(keys, key);
+      return Fail(PlaceOf(keys), "camera {} has no {}{}", name, key,
+                  near.empty() ? "" : fmt::format("; is '{}' a misspelling of it?", near));
+    }
     std::vector<double>& numbers = values[key];
     if (!AddNumbers(*value, numbers)) {
       return Fail(PlaceOf(*value), "camera {}: '{}' must be a list of numbers, found {}", name, key, Shown(*value));

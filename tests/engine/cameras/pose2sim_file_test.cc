@@ -190,6 +190,8 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
   for (const auto& [keys, said] :
        {std::pair("fov_deg = 180\n" + seat, "camera a: 'fov_deg' is 180; allowed: 1 to 170"),
         {seat, "camera a has no fov_deg"},
+        {"fov = 90\n" + seat, "camera a has no fov_deg; is 'fov' a misspelling of it?"},
+        {"fov_dge = 90\n" + seat, "camera a has no fov_deg; is 'fov_dge' a misspelling of it?"},
         {"fov_deg = 90\nposition = [0, 1, 2]\nlook_at = [0, 1, 1]\n",
          "camera a: 'look_at' is at, above or below the camera's position; allowed: a point at another horizontal "
          "position"},
