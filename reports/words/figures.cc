@@ -14,12 +14,18 @@ std::string Suffix(const std::string& unit) {
   return unit.empty() ? "" : " " + unit;
 }
 
+/// Returns true if `word` is one of the words of a label.
+bool HasWord(const std::string& label, const std::string& word) {
+  return (" " + label + " ").find(" " + word + " ") != std::string::npos;
+}
+
 std::string LabelOf(const MetricInfo& info) {
   switch (info.reading) {
     case Reading::kYesNo:
       return "share “" + info.label + "”";
     case Reading::kShare:
-      return "mean share of " + info.label;
+      // Some labels say themselves that they are a share.
+      return (HasWord(info.label, "share") || HasWord(info.label, "ratio") ? "mean " : "mean share of ") + info.label;
     case Reading::kScore:
     case Reading::kAmount:
       break;

@@ -86,6 +86,9 @@ TEST(Figures, SayMeanWhereItIsOneAndShareOnlyOfYesAndNo) {
   EXPECT_EQ(WordsFor("f1").label, "mean F1");
   EXPECT_EQ(WordsFor("solved_practical").label, "share “solved (0.1 cm, 0.1°)”");
   EXPECT_EQ(WordsFor("frames_recovered").label, "mean share of frames recovered");
+  EXPECT_EQ(WordsFor("seen_share").label, "mean share judged");
+  EXPECT_EQ(WordsFor("skating_ratio@gmd").label, "mean skating ratio");
+  EXPECT_EQ(WordsFor("skipped_share").label, "mean skipped share of the wanted clip");
   EXPECT_EQ(WordsFor("orientation_error_deg").label, "effector orientation error");
   for (const MetricInfo& metric : AllMetrics()) {
     const MetricWords words = WordsFor(metric.id);
