@@ -48,6 +48,8 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
     Json facts = FactsOf(comparison);
     facts["incomparable"] = incomparable;
     facts["systems"] = systems;
+    facts["a_made_by"] = run_a.data.program_version;
+    facts["b_made_by"] = run_b.data.program_version;
     RETURN_IF_ERROR(PrintFacts("compare", std::move(facts)));
     return kSuccess;
   }
@@ -59,6 +61,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   PrintList("Not compared, because the worlds differ:", incomparable);
   PrintList("Methods whose settings differ:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
+  PrintVersions("A", run_a.data.program_version, "B", run_b.data.program_version);
   for (const std::string& line : systems) fmt::print("{}\n", line);
   if (!run_b.data.fence.empty() || !run_b.data.key_digest.empty()) {
     fmt::print("B: {}.\n", DescribeWorlds(run_b.data));

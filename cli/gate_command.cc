@@ -79,6 +79,8 @@ void PrintReport(const GateReport& report) {
   PrintList("Methods whose settings in the scenario changed:", report.comparison.settings_changed);
   PrintList("Methods without an answer in any cell:", report.silent);
   PrintList("Incomplete:", report.incomplete);
+  if (!report.baseline_version.empty())
+    PrintVersions("the baseline", report.baseline_version, "the run", report.program_version);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
   const std::vector<std::string> reversed = FallenLines(report, true);
   fmt::print("Gate: {}{}{}\n", GateVerdictWords(GateVerdictOf(report)),
@@ -86,9 +88,35 @@ void PrintReport(const GateReport& report) {
              report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update writes a baseline)" : "");
 }
 
-Json FactsOf(const GateReport& report) {
-  Json facts = {{"verdict", GateVerdictWords(GateVerdictOf(report))}, {"made_by", report.program_version}};
+/// Returns, as JSON, the worlds in which a metric became far worse.
+Json FarWorseWorlds(const GateReport& report, const RunData& run) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json worlds = Json::array();
+  for (const MetricMove& move : report.comparison.moves) {
+    for (const TailWorld& world : move.tail) {
+      const std::string cell = CellOf(move.identity, world.trial);
+      worlds.push_back({{"cell", cell},
+                        {"metric", move.identity.metric},
+                        {"before", number(world.before)},
+                        {"after", number(world.after)},
+                        {"status_before", StatusName(StatusOf(world.ended_before))},
+                        {"status_after", StatusName(StatusOf(world.ended_after))},
+                        {"fails", IsRegression(move)},
+                        {"replay", ReplayCommand(report, cell)}});
+      const auto place = FindRow(run, cell);
+      const std::string reason = place ? RowAt(run, *place).result.reason : "";
+      if (!reason.empty()) worlds.back()["reason"] = reason;
+    }
+  }
+  return worlds;
+}
+
+Json FactsOf(const GateReport& report, const RunData& run) {
+  Json facts = {{"verdict", GateVerdictWords(GateVerdictOf(report))},
+                {"made_by", report.program_version},
+                {"baseline_made_by", report.baseline_file.empty() ? Json() : Json(report.baseline_version)}};
   facts.update(FactsOf(report.comparison));
+  facts["far_worse_worlds"] = FarWorseWorlds(report, run);
   Json& expectations = facts["expectations"] = Json::array();
   for (const GateExpectation& e : report.expectations) {
     expectations.push_back(
@@ -124,7 +152,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {
-    RETURN_IF_ERROR(PrintFacts("gate", FactsOf(report)));
+    RETURN_IF_ERROR(PrintFacts("gate", FactsOf(report, run.data)));
   } else {
     PrintReport(report);
   }

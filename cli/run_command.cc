@@ -183,9 +183,47 @@ Result<DoubtList> DoubtsIn(const std::filesystem::path& folder, const RunData& r
   return DoubtsOf(rows);
 }
 
+/// Returns the cells without an answer of a run, counted by reason.
+Result<std::vector<FailureCount>> FailuresIn(const std::filesystem::path& folder, const RunData& outline) {
+  const auto has_failure = [](const MethodSummary& method) { return method.ok < method.attempted; };
+  const bool has_failures = std::ranges::any_of(outline.scenarios, [&](const ScenarioSummary& scenario) {
+    return std::ranges::any_of(scenario.conditions, [&](const ConditionSummary& condition) {
+      return std::ranges::any_of(condition.methods, has_failure);
+    });
+  });
+  if (!has_failures) return std::vector<FailureCount>{};
+  ASSIGN_OR_RETURN(const auto rows, LoadRunRowByRow(folder));
+  return FailuresOf(rows);
+}
+
+/// Prints at most twenty failures of methods that answered in other cells.
+void PrintFailures(const std::vector<FailureCount>& failures) {
+  std::map<std::pair<std::string, std::string>, int> cells;
+  for (const FailureCount& one : failures) cells[{one.scenario, one.method}] += one.cells;
+  std::vector<std::string> lines;
+  for (const FailureCount& one : failures) {
+    if (cells.at({one.scenario, one.method}) < one.of) lines.push_back(DescribeFailure(one));
+  }
+  constexpr std::size_t kShown = 20;
+  if (const std::size_t count = lines.size(); count > kShown) {
+    lines.resize(kShown);
+    lines.push_back(fmt::format("and {} more; `etude rows` prints all cells", count - kShown));
+  }
+  PrintList("\nCells without an answer:", lines);
+}
+
 /// Returns the facts that `etude run --json` prints; `run` is null for a shard.
-Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, const DoubtList& doubts) {
-  Json scenarios = Json::array(), silent = Json::array();
+Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, const DoubtList& doubts,
+             const std::vector<FailureCount>& failures) {
+  Json scenarios = Json::array(), silent = Json::array(), failed = Json::array();
+  for (const FailureCount& one : failures) {
+    failed.push_back({{"scenario", one.scenario},
+                      {"method", one.method},
+                      {"status", StatusName(one.status)},
+                      {"reason", one.Words()},
+                      {"cells", one.cells},
+                      {"of", one.of}});
+  }
   for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
     Json expectations = Json::array();
     for (const ExpectationResult& one : scenario.expectations) {
@@ -204,6 +242,7 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, 
           {"run_s", outcome.seconds},
           {"scenarios", std::move(scenarios)},
           {"without_answer", std::move(silent)},
+          {"failures", std::move(failed)},
           {"doubts", doubts.lines()}};
 }
 
@@ -229,6 +268,9 @@ int ShowOutcome(const RunOutcome& outcome) {
     if (!finished) return Complain(finished.error());
     PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
   }
+  const auto failures = FailuresIn(outcome.folder, *run);
+  if (!failures) return Complain(failures.error());
+  PrintFailures(*failures);
   PrintAnswers(*run);
   fmt::print("\n{} of {} cells ok{} in {:.1f} s; results: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
              OthersInWords(*run), outcome.seconds, folder, folder);
@@ -260,6 +302,7 @@ void TellChanges(const std::vector<LoadedChange>& changes) {
 int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
   std::optional<RunData> run;
   Result<DoubtList> doubts;
+  Result<std::vector<FailureCount>> failures;
   if (shard.IsWhole()) {
     auto outline = LoadRunOutline(outcome.folder);
     if (outline && std::ranges::any_of(outline->scenarios, MayHaveSilentMethod)) outline = LoadRun(outcome.folder);
@@ -267,8 +310,10 @@ int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
     run = *std::move(outline);
     doubts = DoubtsIn(outcome.folder, *run);
     if (!doubts) return Complain(doubts.error());
+    failures = FailuresIn(outcome.folder, *run);
+    if (!failures) return Complain(failures.error());
   }
-  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr, *doubts));
+  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr, *doubts, *failures));
   return printed ? code : Complain(printed.error());
 }
 

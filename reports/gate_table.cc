@@ -195,11 +195,19 @@ std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped
   return lines;
 }
 
+std::string CellOf(const MoveIdentity& identity, int trial) {
+  return fmt::format("{}/{}/{:03}/{}", identity.scenario, identity.condition, trial, identity.method);
+}
+
+std::string ReplayCommand(const GateReport& report, const std::string& cell) {
+  return fmt::format("etude replay {}{} --cell {}{}", report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder),
+                     report.runs_programs ? " --allow-exec" : "", ShellWord(cell),
+                     report.baseline_file.empty() ? "" : " --baseline " + ShellWord(report.baseline_file));
+}
+
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most) {
   if (moves.empty()) return {};
-  const std::string beside = report.baseline_file.empty() ? "" : " --baseline " + ShellWord(report.baseline_file);
-  const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
   const MoveIdentity& one = moves.front()->identity;
   const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
   // The far worse worlds: the trial of each, and a text that lists the metrics that became far worse.
@@ -218,10 +226,8 @@ std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, con
   std::vector<TailLine> lines;
   for (std::size_t i = 0; i < std::min(most, worlds.size()); ++i) {
     const auto& [trial, text] = worlds[i];
-    const std::string cell = fmt::format("{}/{}/{:03}/{}", one.scenario, one.condition, trial, one.method);
     lines.push_back({fmt::format("{}, trial {}, {}: {}", about, trial, one.method, text),
-                     fmt::format("etude replay {}{} --cell {}{}", folder, report.runs_programs ? " --allow-exec" : "",
-                                 ShellWord(cell), beside)});
+                     ReplayCommand(report, CellOf(one, trial))});
   }
   if (worlds.size() > most) {
     const auto more = std::ssize(worlds) - std::ssize(lines);

@@ -44,6 +44,11 @@ std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison);
 /// Returns the number of metrics with each outcome: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
 
+/// Returns the identity (Row::Id) of a cell: "ik-weights/joint_noise_deg=5/007/fixed".
+std::string CellOf(const MoveIdentity& identity, int trial);
+/// Returns a command for a shell that runs a cell again, and compares it with the baseline of the gate.
+std::string ReplayCommand(const GateReport& report, const std::string& cell);
+
 /// A line of text about a world that is far worse than in the baseline.
 struct TailLine {
   std::string

@@ -227,9 +227,47 @@ std::vector<std::string> TableMetrics(const ScenarioSummary& scenario) {
   return metrics;
 }
 
+namespace {
+
+/// Lists the reasons that were counted by status and method, the most frequent first.
+std::vector<ReasonCount> MostFrequentFirst(const std::map<std::pair<Status, std::string>, ReasonCounts>& reasons) {
+  std::vector<ReasonCount> list;
+  for (const auto& [key, counts] : reasons) {
+    for (CountedReason& one : counts.MostFrequentFirst()) list.push_back({std::move(one), key.first, key.second});
+  }
+  std::ranges::stable_sort(list, std::ranges::greater{}, &ReasonCount::cells);
+  return list;
+}
+
+}  // namespace
+
 std::string DescribeCount(const ReasonCount& reason) {
   const std::string_view what = reason.status == Status::kOk ? "doubtful" : StatusName(reason.status);
   return fmt::format("{} × {} in {}: {}", FormatCount(reason.cells), what, reason.method, reason.Words());
+}
+
+std::vector<FailureCount> FailuresOf(const RunData& run) {
+  std::map<std::string, std::map<std::pair<Status, std::string>, ReasonCounts>> reasons;  // by scenario
+  std::map<std::pair<std::string, std::string>, int> attempted;                           // by scenario and method
+  ForEachRow(run, [&](const Row& row, std::size_t) {
+    if (row.result.status == Status::kSkipped) return;
+    ++attempted[{row.scenario, row.method}];
+    if (HasAnswer(row.result)) return;
+    reasons[row.scenario][{row.result.status, row.method}].Add(WithoutDoubts(row.result.reason));
+  });
+  std::vector<FailureCount> failures;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    for (ReasonCount& one : MostFrequentFirst(reasons[scenario.name])) {
+      const int of = attempted[{scenario.name, one.method}];
+      failures.push_back({std::move(one), scenario.name, of});
+    }
+  }
+  return failures;
+}
+
+std::string DescribeFailure(const FailureCount& failure) {
+  return fmt::format("{}: {} of {} of {} in {}: {}", StatusName(failure.status), FormatCount(failure.cells),
+                     Plural(failure.of, "cell"), failure.method, failure.scenario, failure.Words());
 }
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
@@ -281,14 +319,8 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   if (!asked.empty()) findings.figures = KeyFiguresOf(scenario, asked, times, findings);
   findings.statuses.assign(statuses.begin(), statuses.end());
   // List the reasons, the most frequent first.
-  for (const auto& [key, counts] : reasons) {
-    for (CountedReason& one : counts.MostFrequentFirst()) {
-      auto& list = key.first == Status::kOk ? findings.doubts : findings.reasons;
-      list.push_back({std::move(one), key.first, key.second});
-    }
-  }
-  for (auto* list : {&findings.reasons, &findings.doubts}) {
-    std::ranges::stable_sort(*list, std::ranges::greater{}, &ReasonCount::cells);
+  for (ReasonCount& one : MostFrequentFirst(reasons)) {
+    (one.status == Status::kOk ? findings.doubts : findings.reasons).push_back(std::move(one));
   }
   return findings;
 }

@@ -62,6 +62,12 @@ struct ReasonCount : CountedReason {
   std::string method = {};
 };
 
+/// Counts the cells of one method of a scenario that have no answer (HasAnswer), for one status and kind of reason.
+struct FailureCount : ReasonCount {
+  std::string scenario = {};
+  int of = 0;  ///< the number of cells of the method that were not skipped, under all conditions
+};
+
 /// For each method, the share of cells that reached the task's goal according to one metric. Status `ok` only means
 /// that a cell was measured.
 struct SuccessFinding {
@@ -93,6 +99,10 @@ struct ScenarioFindings {
 };
 /// Returns a line about a reason or a doubt: how many cells have it, of which method.
 std::string DescribeCount(const ReasonCount& reason);
+/// Returns the failures of a run in the order of its scenarios, the most frequent first. Skipped cells do not count.
+std::vector<FailureCount> FailuresOf(const RunData& run);
+/// Returns a line about failures: "crashed: 2 of 6 cells of mine in ik: ended with signal 11".
+std::string DescribeFailure(const FailureCount& failure);
 /// Returns true if the strongest other method is not the baseline. Otherwise, a comparison with the strongest other
 /// method adds no information.
 bool HasOtherRival(const ScenarioFindings& findings);

@@ -52,6 +52,7 @@ class Facts(EtudeCase):
         self.assertEqual(told["run --dry-run"]["scenarios"][0]["worlds"], 4)
         self.assertEqual((told["run --dry-run"]["shard"], told["run --dry-run"]["cells"]), ("1/4", 4))
         self.assertEqual((told["run"]["cells"], told["run"]["without_answer"]), (16, []))
+        self.assertEqual(told["run"]["failures"], [])
         self.assertEqual(told["run"]["cells_ok"], (self.folder / "told/cells.jsonl").read_text().count('"status":"ok"'))
         self.assertEqual(told["run"]["output"], str(self.folder / "told"))
         self.assertEqual(told["cite"]["address"], "https://example.org/etude")

@@ -9,6 +9,7 @@ import unittest
 import xml.etree.ElementTree
 
 from etude_case import ETUDE, EtudeCase, heavy, ik_scenario
+from json_schema import complaints, load_schema
 
 SCENARIO = ik_scenario(trials=12, question="Does the gate see it?", weights="fixed-tuned")
 WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
@@ -110,6 +111,34 @@ class Gate(EtudeCase):
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         self.assertIn(f"  {line['metric']}: {line['values'][0]} in the baseline, {whole[0]} now\n", replayed.stdout)
         self.assertIn(" in the baseline, and now\n", replayed.stdout)
+        # JSON names the same worlds.
+        facts = json.loads(self.gate(self.out, "--baseline", self.baseline, "--unsealed", "--json", expect=1)
+                           .splitlines()[0])
+        schema = load_schema("facts.schema.json") | {"$ref": "#/$defs/gate"}
+        self.assertEqual(complaints(facts, schema), [])
+        self.assertEqual([world["cell"] for world in facts["far_worse_worlds"]], [cell for _, cell in commands])
+        for trial, world in enumerate(facts["far_worse_worlds"]):
+            self.assertEqual((world["before"], world["after"]), (line["values"][trial], whole[trial]))
+            self.assertEqual((world["metric"], world["fails"]), (line["metric"], True))
+            self.assertIn(world["replay"] + "\n", text)
+
+    def test_a_baseline_or_run_of_another_version_is_told(self):
+        self.make_baseline()
+        self.assertNotIn("Made by", self.gate(self.out, "--baseline", self.baseline, expect=0))
+        self.assertNotIn("Made by", self.etude("compare", self.out, self.out).stdout)
+        text = self.baseline.read_text()
+        self.baseline.write_text(re.sub('"etude":"[^"]+"', '"etude":"0.3.9"', text, count=1))
+        self.assertIn("Made by different versions of Etude: the baseline by 0.3.9, the run by ",
+                      self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0))
+        told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", "--json", expect=0)
+        self.assertEqual(json.loads(told.splitlines()[0])["baseline_made_by"], "0.3.9")
+        shutil.copytree(self.out, self.now)
+        manifest = self.now / "manifest.json"
+        manifest.write_text(re.sub('"etude": ?"[^"]+"', '"etude":"0.3.9"', manifest.read_text(), count=1))
+        said = self.etude("compare", self.now, self.out, "--unsealed")
+        self.assertIn("Made by different versions of Etude: A by 0.3.9, B by ", said.stdout, said.stderr)
+        facts = json.loads(self.etude("compare", self.now, self.out, "--unsealed", "--json").stdout)
+        self.assertEqual(facts["a_made_by"], "0.3.9")
 
     def test_far_worse_worlds_of_a_tail_rule_that_is_off_are_named_as_not_judged(self):
         self.make_baseline(SCENARIO + "gate: {tail: {worlds: 0, lost: 0}}\n")
@@ -241,6 +270,12 @@ class Gate(EtudeCase):
         text = self.gate(self.now, "--baseline", self.baseline, expect=1)
         self.assertNotIn("depends on the machine", text)
         self.assertIn(f"etude replay {self.now} --allow-exec --cell ik/", text)
+        facts = json.loads(self.gate(self.now, "--baseline", self.baseline, "--json", expect=1).splitlines()[0])
+        failed = [world for world in facts["far_worse_worlds"] if world["status_after"] != "ok"]
+        rows = {row["cell"]: row for row in map(json.loads, (self.now / "cells.jsonl").read_text().splitlines())}
+        self.assertTrue(failed)
+        for world in failed:
+            self.assertEqual(world["reason"], rows[world["cell"]]["reason"])
 
     def test_an_unmet_expectation_fails_without_a_baseline(self):
         self.make_baseline()

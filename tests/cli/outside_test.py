@@ -22,7 +22,7 @@ REASONS = {
     "crashes": ("crashed", "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"),
     "hangs": ("timeout", "took longer than 0.5 s"),
     "prints_garbage": ("bad_output", "wrote something that is not JSON: 'loading model \\x1b[1m100%\\x1b[0m'"),
-    "answers_nan": ("bad_output", "wrote something that is not JSON near byte "),
+    "answers_nan": ("bad_output", "its message contains NaN, which is not JSON; allowed: finite numbers"),
     "eats_memory": ("out_of_memory", "held more than 300 MB of memory"),
 }
 
@@ -59,6 +59,27 @@ class OutsideMethods(EtudeCase):
         self.assertIn("about to fall", (self.out / "stderr" / "ik~crashes.txt").read_text())
         self.assertEqual([row for row in among if row["method"] not in REASONS], alone)
         self.assertEqual({row["status"] for row in alone if row["method"] == "good"}, {"ok"})
+
+    def test_a_method_that_fails_in_some_worlds_is_named_with_its_share(self):
+        head = "def answer(tree, problem):\n"
+        fails = "    asked = globals()['asked'] = globals().get('asked', 0) + 1\n    if asked % 4 == 2:\n        raise ValueError('no')\n"
+        solver = (EXAMPLES / "ik_dls.py").read_text()
+        self.assertIn(head, solver)
+        program = self.write("fails.py", solver.replace(head, head + fails))
+        scenario = self.write("ik.yaml", IK.replace("trials: 4", "trials: 3") + outside("mine", program) + LIMITS)
+        told = self.facts("run", scenario, "-o", self.out, "--jobs", 1)
+        rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
+        failed = [row for row in rows if row["method"] == "mine" and row["status"] != "ok"]
+        self.assertTrue(0 < len(failed) < 6, failed)
+        self.assertEqual(sum(one["cells"] for one in told["failures"]), len(failed))
+        self.assertEqual({(one["scenario"], one["method"], one["of"]) for one in told["failures"]}, {("ik", "mine", 6)})
+        self.assertEqual({one["status"] for one in told["failures"]}, {row["status"] for row in failed})
+        self.assertIn(told["failures"][0]["reason"].removeprefix("for example: "), {row["reason"] for row in failed})
+        said = self.etude("run", scenario, "-o", self.out, "--jobs", 1, "--overwrite").stdout
+        first = told["failures"][0]
+        self.assertIn(f"\nCells without an answer:\n  {first['status']}: {first['cells']} of 6 cells of mine in ik: "
+                      f"{first['reason']}\n", said)
+        self.assertNotIn("Methods without an answer", said)
 
     def test_a_log_of_a_long_first_cell_is_not_silent(self):
         sleeps = self.write("sleeps.py", "import time, etude\n@etude.method(task='ik')\ndef sleeps(problem):\n"

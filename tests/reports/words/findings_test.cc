@@ -172,6 +172,31 @@ TEST(Findings, TellTheDoubtsAboutCellsBesideTheirReasons) {
   for (std::size_t i = 0; i < both.reasons.size(); ++i) EXPECT_EQ(both.reasons[i].Words(), findings.reasons[i].Words());
 }
 
+TEST(Findings, CountTheCellsOfAMethodWithoutAnAnswer) {
+  RunData run;
+  for (const char* name : {"b", "a"}) run.scenarios.push_back({.name = name});
+  const auto add = [&](const char* scenario, const char* method, Status status, const char* reason) {
+    Row row;
+    row.scenario = scenario;
+    row.method = method;
+    row.result = CellResult::Ended(status, reason);
+    run.rows.push_back(row);
+  };
+  EXPECT_TRUE(FailuresOf(run).empty());
+  add("a", "x", Status::kOk, "");
+  add("a", "x", Status::kCrashed, "signal 11");
+  add("a", "x", Status::kUnsolved, "3 missed");
+  add("a", "x", Status::kUnsolved, "gave no answer: shy");
+  add("a", "x", Status::kSkipped, "no foot");
+  add("a", "x", Status::kCrashed, "signal 6");
+  add("b", "x", Status::kFailed, "never began");
+  std::vector<std::string> lines;
+  for (const FailureCount& one : FailuresOf(run)) lines.push_back(DescribeFailure(one));
+  EXPECT_EQ(lines, (std::vector<std::string>{"failed: 1 of 1 cell of x in b: never began",
+                                             "crashed: 2 of 5 cells of x in a: for example: signal 11",
+                                             "unsolved: 1 of 5 cells of x in a: gave no answer: shy"}));
+}
+
 TEST(Findings, OfTheRunCountExpectationsAndCells) {
   const RunFindings findings = FindingsOf(ExampleRun());
   EXPECT_EQ(findings.met, 3);
