@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -74,12 +75,28 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   return {};
 }
 
+/// Fails if a folder that was given as a shard is no shard; names the shards that it contains.
+Result<void> RequireNoFolderOfShards(const fs::path& folder) {
+  if (Exists(Inside(folder) / kJournalFile) || Exists(Inside(folder) / "manifest.json")) return {};
+  std::vector<std::string> shards;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (Exists(Inside(entry->path()) / kJournalFile)) shards.push_back(entry->path().string());
+  }
+  // If nothing in a folder is foreign to a run, the run was stopped before it began its journal.
+  if (shards.empty() && (!fs::is_directory(folder, error) || LookAtFolder(folder))) return {};
+  if (shards.empty()) return Fail({folder.string()}, "is no shard; allowed: the result folders of `etude run --shard`");
+  std::ranges::sort(shards);
+  return Fail({folder.string()}, "is no shard, but contains shards; allowed: these shards, {}", Join(shards, " "));
+}
+
 /// Finds the shards in the folders and lists the missing ones. Fails if shards belong to different runs or builds, or
 /// if a shard occurs twice.
 Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_libraries) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
   for (const std::string& folder : folders) {
+    RETURN_IF_ERROR(RequireNoFolderOfShards(folder));
     ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
     if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run, not a shard");
     if (state == FolderState::kFree) {

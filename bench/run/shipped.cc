@@ -50,6 +50,24 @@ fs::path FindShipped(const std::string& name) {
   return std::ranges::binary_search(names, name) ? fs::path(path.string() + kEnding) : fs::path();
 }
 
+namespace {
+
+/// Returns the name of a scenario that is nearest to `name`: as a whole, or without the suite; or a name that begins
+/// with `name` without the suite. Returns "" if there is none.
+std::string NearestScenario(const std::string& name, const std::vector<std::string>& names) {
+  if (std::string nearest = NearestName(name, names); !nearest.empty()) return nearest;
+  std::string own = fs::path(name).filename().string();
+  std::ranges::replace(own, '-', '_');
+  std::vector<std::string> own_names;
+  for (const std::string& each : names) own_names.push_back(fs::path(each).filename().string());
+  auto found = std::ranges::find(own_names, NearestName(own, own_names));
+  if (found == own_names.end() && own.size() >= 3)
+    found = std::ranges::find_if(own_names, [&](const std::string& each) { return each.starts_with(own); });
+  return found == own_names.end() ? "" : names[static_cast<std::size_t>(found - own_names.begin())];
+}
+
+}  // namespace
+
 tl::unexpected<Error> NotShipped(const std::string& path) {
   std::vector<std::string> names = ShippedScenarios();
   names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
@@ -60,7 +78,7 @@ tl::unexpected<Error> NotShipped(const std::string& path) {
   if (const std::size_t at = name.rfind(folder); at != std::string::npos) name.erase(0, at + folder.size());
   if (name.ends_with(kEnding)) name.resize(name.size() - std::string_view(kEnding).size());
   if (name.ends_with('/')) name.pop_back();
-  const std::string nearest = NearestName(name, names);
+  const std::string nearest = NearestScenario(name, names);
   return Fail({path},
               "no such scenario file or folder, and etude has no scenario with this name{}; 'etude list scenarios' "
               "lists the names",

@@ -29,6 +29,21 @@ class Errors(EtudeCase):
         self.refuses("report", self.folder / "nothing", says=["nothing: no such folder"])
         self.refuses("report", self.folder, says=[f"{self.folder}: is not a run, because it contains no manifest.json; 'etude run' writes this file"])
 
+    def test_names_near_those_of_scenarios_are_suggested(self):
+        for name, meant in ("ikk", "ik"), ("quick/pose-distance", "full/pose_distance_weights"):
+            self.refuses("run", name, "-o", self.out, says=["no such scenario file or folder", f"{meant}'?"])
+
+    def test_a_folder_of_shards_is_no_shard(self):
+        scenario, parts = self.write("ik.yaml", IK), self.folder / "parts"
+        for i in 1, 2:
+            self.ends(0, "run", scenario, "--shard", f"{i}/2", "-o", parts / str(i))
+        self.refuses("merge", parts, "-o", self.out,
+                     says=[f"{parts}: is no shard, but contains shards; allowed: these shards, {parts}/1 {parts}/2"])
+        (self.folder / "other").mkdir()
+        (self.folder / "other" / "notes.txt").write_text("no shard")
+        self.refuses("merge", self.folder / "other", "-o", self.out, says=["other: is no shard; allowed: "])
+        self.ends(0, "merge", parts / "1", parts / "2", "-o", self.out)
+
     def test_yaml_that_is_none(self):
         self.refuses_scenario(IK + "clips: [a, b\n", says=[":10:1: not valid YAML"])
 
