@@ -48,6 +48,9 @@ class Bridge(EtudeCase):
             self.assertGreaterEqual(int(frame.get("clips")), 2)
         self.assertGreater(len(root.findall("in-between/key")), 3)
 
+    def test_one_clip_is_not_called_clips(self):
+        self.assertRegex(self.works("builtin:clap"), r"(?m)^1 clip, \d+ frames, ")
+
     def test_a_copy_of_a_clip_is_no_second_clip(self):
         summary = self.works(*FEW)
         copy = self.folder / "copy.csv"

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/names.h"
+#include "io/drawing/numbers.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -165,9 +166,9 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   std::string text;
   const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
   const ClipSummary total = Total(clips);
-  text += fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n",
-                      clips.size(), total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames),
-                      loaded.system.name, loaded.match_rules.threshold,
+  text += fmt::format("{}, {}, {} ({:.0f} %); fuzzy system {}, threshold {}{}\n", Plural(std::ssize(clips), "clip"),
+                      Plural(total.frames, "frame"), Plural(total.bridge_frames, "bridge frame"),
+                      Percent(total.bridge_frames, total.frames), loaded.system.name, loaded.match_rules.threshold,
                       loaded.match_rules.within_class ? ", matches only between frames with the same tags" : "");
   text += ClipsAsText(loaded, coverage, clips, wait_s);
   if (!coverage.HasPairs()) {
