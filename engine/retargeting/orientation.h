@@ -23,11 +23,12 @@ glm::dvec3 BodyAxis(const BodyPose& pose);
 glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses);
 
 /// Checks that left and right of a body are not exchanged in a motion (ours). Returns the mean angle by which the
-/// body's knees are overextended, radians, or 0 if this angle is below 3°. Fails, naming `file`, if the left arm is on
-/// the side of the right leg, or if feet point backwards. If `map` has made a foot from other joints, this foot points
-/// forward by definition. In that case the check fails if arms bend and reach backwards by a quarter of their length,
-/// or if knees bend backwards; straight arms and knees are no evidence. Depth sensors show overextended knees, so an
-/// overextension is accepted if it is at most 35° in three of four frames and the arms are in front of the body.
+/// body's knees are overextended, radians, or 0 if this angle is below 3°. Fails, naming `file`, if the left arm is
+/// on the side of the right leg, or if feet point backwards (LegSides). If `map` has made a foot from other joints,
+/// this foot points forward by definition. In that case the check fails if arms bend and reach backwards by a
+/// quarter of their length, or if knees bend backwards; straight arms and knees are no evidence. Depth sensors show
+/// overextended knees, so an overextension is accepted if it is at most 35° in three of four frames and the arms
+/// are in front of the body.
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file);
 
 /// Fails, naming `file` and the limbs, if two or more of the eight limbs between the trunk, wrists and ankles have no

@@ -57,6 +57,8 @@ struct UpFinding {
 ///   - the body sits upright along the other axis with its feet at one height, and its hands do not carry it along the
 ///     usual axis. A body that lies with hips and knees at right angles has the same shape; so `doubt` names both, and
 ///     if the body may lie on one side, the usual axis is kept.
+/// A stated axis is not doubted if a body that stands along another axis lies at height 0 along the stated one. AMASS is
+/// also doubted if the body is never upright, and below its floor or higher than beds.
 /// In case of doubt, the usual axis is taken. If it is only a guess, and the body would climb, lean or float along it
 /// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both; also if nothing
 /// shows that the body stands or sits along the usual axis (steps, a floor at height 0, shanks upright below level
