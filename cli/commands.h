@@ -42,9 +42,6 @@ Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
 /// clips, clips that were left out, damaged lines of a resumed run's journal, and outside methods that ran without a
 /// fence. If the run was stopped, reports that and returns nullopt.
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
-/// Prints the tables of a finished run, and the reasons why methods have no answer. Returns kNothingWorked if a method
-/// has no answer or no cell is ok.
-int ShowOutcome(const RunOutcome& outcome);
 /// Returns true if standard output was closed before the program started, so that nobody reads it.
 bool OutputWasClosed();
 /// Prints a title and indented lines; prints nothing if there are no lines.

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
+#include "cli/run_outcome.h"
 #include "engine/base/utf8.h"
 
 namespace etude {
