@@ -51,7 +51,7 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
 void PrintVersions(const std::string& before, const std::string& before_version, const std::string& after,
                    const std::string& after_version) {
   if (before_version == ETUDE_VERSION && after_version == ETUDE_VERSION) return;
-  fmt::print("Made by different versions of Etude: {} by {}, {} by {}; this is Etude {}\n", before, before_version,
+  fmt::print("Versions of Etude differ: {} was made by {}, {} by {}; this is Etude {}\n", before, before_version,
              after, after_version, ETUDE_VERSION);
 }
 

@@ -11,7 +11,7 @@ namespace etude {
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
                 std::size_t max_rows);
 
-/// Prints a line unless this program's version made both results: "Made by different versions of Etude: A by 0.3.1, B
+/// Prints a line unless this program's version made both results: "Versions of Etude differ: A was made by 0.3.1, B
 /// by 0.4.0; this is Etude 0.4.0".
 void PrintVersions(const std::string& before, const std::string& before_version, const std::string& after,
                    const std::string& after_version);

@@ -128,7 +128,7 @@ class Gate(EtudeCase):
         self.assertNotIn("Made by", self.etude("compare", self.out, self.out).stdout)
         text = self.baseline.read_text()
         self.baseline.write_text(re.sub('"etude":"[^"]+"', '"etude":"0.3.9"', text, count=1))
-        self.assertIn("Made by different versions of Etude: the baseline by 0.3.9, the run by ",
+        self.assertIn("Versions of Etude differ: the baseline was made by 0.3.9, the run by ",
                       self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0))
         told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", "--json", expect=0)
         self.assertEqual(json.loads(told.splitlines()[0])["baseline_made_by"], "0.3.9")
@@ -136,7 +136,7 @@ class Gate(EtudeCase):
         manifest = self.now / "manifest.json"
         manifest.write_text(re.sub('"etude": ?"[^"]+"', '"etude":"0.3.9"', manifest.read_text(), count=1))
         said = self.etude("compare", self.now, self.out, "--unsealed")
-        self.assertIn("Made by different versions of Etude: A by 0.3.9, B by ", said.stdout, said.stderr)
+        self.assertIn("Versions of Etude differ: A was made by 0.3.9, B by ", said.stdout, said.stderr)
         facts = json.loads(self.etude("compare", self.now, self.out, "--unsealed", "--json").stdout)
         self.assertEqual(facts["a_made_by"], "0.3.9")
 
