@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/base/angles.h"
+
 namespace etude {
 
 void LegSides::Add(const glm::dvec3& left, const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle,
@@ -12,7 +14,8 @@ void LegSides::Add(const glm::dvec3& left, const glm::dvec3& hip, const glm::dve
   }
   const glm::dvec3 axis = glm::normalize(left), along = glm::normalize(shank);
   feet_ += glm::dot(glm::cross(axis, along), glm::normalize(foot));
-  knees_ += glm::dot(axis, glm::cross(glm::normalize(thigh), along));  // sine of the knee's bend about `left`
+  const glm::dvec3 upper = glm::normalize(thigh);
+  knees_ += std::atan2(glm::dot(axis, glm::cross(upper, along)), glm::dot(upper, along));  // bend about `left`
   ++count_;
 }
 
@@ -21,10 +24,11 @@ std::optional<double> LegSides::FeetForward() const {
 }
 
 std::string_view LegSides::Backwards() const {
-  constexpr double kUndecided = 0.35;
+  // Depth sensors overextend knees by up to 35°.
+  constexpr double kUndecided = 0.35, kBackwards = Radians(-40);
   if (count_ == 0 || feet_ > kUndecided * count_) return "";
   if (feet_ < -kUndecided * count_) return "the feet point backwards";
-  return knees_ < -kUndecided * count_ ? "the knees bend backwards" : "";
+  return knees_ < kBackwards * count_ ? "the knees bend backwards" : "";
 }
 
 }  // namespace etude

@@ -8,7 +8,7 @@ namespace etude {
 
 /// Evidence of the legs that left and right are not exchanged (ours). Each leg is measured against its own shank and
 /// against the line of the hips, so the body may stand, kneel, lie or bend backwards. If a shank is parallel to the
-/// line of the hips, as in people who sit cross-legged, the leg is no evidence.
+/// line of the hips, as in people who sit cross-legged, the leg counts as 0.
 class LegSides {
  public:
   /// Adds one leg of one frame. `left` points from the right hip to the left hip. Legs without a length do not count.
@@ -23,7 +23,7 @@ class LegSides {
   std::string_view Backwards() const;
 
  private:
-  double feet_ = 0, knees_ = 0;  // sums over legs and frames
+  double feet_ = 0, knees_ = 0;  // sums over legs and frames: shares, and bends in radians (backwards: negative)
   int count_ = 0;
 };
 

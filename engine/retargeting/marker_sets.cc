@@ -300,13 +300,13 @@ ChosenSet ChooseSet(const MarkerColumns& columns, std::span<const std::string> n
     if (AreOwnJoints(columns)) {
       chosen.known = &MarkerSets().front();
     } else {
-      const auto told = [&](const MarkerSet& set) {
+      const auto count_of = [&](const MarkerSet& set) {
         return std::ranges::count_if(AllRoles(), [&](Role role) { return Determines(set, columns, role); });
       };
       chosen.made = SetOfSkinNames(columns, names);
       if (!chosen.made) chosen.made = SetOfSkeletonNames(columns, names);
       const bool is_made = chosen.made && !chosen.made->has_skin_limbs;
-      if (is_made && may_be_skin && told(*chosen.made) <= told(*chosen.known)) chosen.made.reset();
+      if (is_made && may_be_skin && count_of(*chosen.made) <= count_of(*chosen.known)) chosen.made.reset();
     }
   }
   if (wanted.empty()) TakeJointsOfDataSet(columns, names, chosen);

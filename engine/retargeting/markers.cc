@@ -29,15 +29,16 @@ namespace {
 
 constexpr double kMaxGap_s = 1;
 
-/// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames, which `is_filled`
-/// marks.
-int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most, std::vector<bool>& is_filled) {
+/// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames. `longest` becomes
+/// the gap if the gap is longer.
+int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most, FrameRange& longest) {
   const auto at = [&](std::size_t frame) -> MarkerPosition& { return frames[frame][joint]; };
   return FillGaps(
       frames.size(), most, [&](std::size_t frame) { return at(frame).has_value(); },
       [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
         at(frame) = *at(from) + share * (*at(to) - *at(from));
-        is_filled[frame] = true;
+        const FrameRange gap{static_cast<int>(from) + 1, static_cast<int>(to) - 1};
+        if (gap.last - gap.first > longest.last - longest.first) longest = gap;
       });
 }
 
@@ -229,14 +230,13 @@ bool IsRelativeToHips(const std::vector<BodyPose>& poses) {
                              [](const BodyPose& pose) { return glm::length(pose[Role::kHipCentre]) < kMaxAway; });
 }
 
-/// Adds a text about the positions that were interpolated in gaps. It is a doubt if a gap is long enough that the body
-/// may have done something else, unless the caller also gets the positions without them (`keeps_shown`).
-void TellFilled(int filled, const std::vector<bool>& is_filled, const MarkerMotion& markers, bool keeps_shown,
+/// Adds a text about the positions that were interpolated in gaps. It is a doubt if the longest gap of a joint is long
+/// enough that the joint may have done something else, unless the caller also gets the positions without them
+/// (`keeps_shown`).
+void TellFilled(int filled, const FrameRange& longest, const MarkerMotion& markers, bool keeps_shown,
                 MarkerBody& body) {
   constexpr double kLong_s = 0.25;
   if (filled == 0) return;
-  const auto gaps = RangesOf(is_filled);
-  const auto longest = *std::ranges::max_element(gaps, {}, [](const FrameRange& gap) { return gap.last - gap.first; });
   std::string said = fmt::format("{} positions interpolated in gaps", filled);
   const bool is_long = (longest.last - longest.first + 1) / markers.rate_hz >= kLong_s;
   if (is_long) {
@@ -267,9 +267,9 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   const std::string centres = MoveToJointCentres(set, markers.sizes_m, wands, frames);
   const std::vector<JointPositions> seen = options.keeps_shown ? frames : std::vector<JointPositions>();
   int filled = 0;
-  std::vector<bool> is_filled(frames.size());
+  FrameRange longest_gap{0, -1};
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
-  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap, is_filled);
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap, longest_gap);
   // Rotate upright. Files that Etude wrote have Y up; arrays of other layouts only borrow the names of Etude's joints.
   UpRule rule = options.up;
   const bool is_borrowed = !options.layout.empty() && (options.layout != "etude" || options.is_of_camera);
@@ -295,7 +295,7 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
     if (options.keeps_others && stretch != longest) body.others.push_back({stretch.first, PosesOf(frames, stretch)});
   }
   // Describe the corrections.
-  TellFilled(filled, is_filled, markers, options.keeps_shown, body);
+  TellFilled(filled, longest_gap, markers, options.keeps_shown, body);
   const bool uses_all = options.keeps_shown && !options.keeps_others;  // MarkerBody::shown has all frames
   if (body.motion.poses.size() < frames.size() && !uses_all) {
     body.Doubt(DescribeStretches(stretches, longest, frames.size(), options.keeps_others));

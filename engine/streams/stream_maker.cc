@@ -28,20 +28,10 @@ std::optional<double> HeadToAnkles(const RecordedFrame& frame) {
   return glm::distance(*head, 0.5 * (*left + *right));
 }
 
-/// Returns the trunk's median direction: the median of each coordinate, normalised. Who squats or bows leans forwards.
-/// So if the body comes down by more than a seventh of its height, only the frames count in which it is tall, or in
-/// which its height is unknown.
-std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
-  constexpr double kTall = 0.95, kDown = 6.0 / 7;
-  std::vector<double> heights, axes[3];
-  for (const RecordedFrame& frame : frames) {
-    if (const auto height = HeadToAnkles(frame)) heights.push_back(*height);
-  }
-  double tall = 0;
-  if (!heights.empty()) {
-    const double usual = LowerPercentile(heights, 0.9);
-    if (LowerPercentile(std::move(heights), 0.1) < kDown * usual) tall = kTall * usual;
-  }
+/// Returns the trunk's median direction: the median of each coordinate, normalised. Frames in which the distance from
+/// head to ankles is below `tall` do not count.
+std::optional<glm::dvec3> MedianTrunk(std::span<const RecordedFrame> frames, double tall) {
+  std::vector<double> axes[3];
   for (const RecordedFrame& frame : frames) {
     const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)];
     if (!hips || !neck || *hips == *neck || HeadToAnkles(frame).value_or(tall) < tall) continue;
@@ -52,6 +42,24 @@ std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   const glm::dvec3 middle(LowerPercentile(axes[0], 0.5), LowerPercentile(axes[1], 0.5), LowerPercentile(axes[2], 0.5));
   if (glm::length(middle) < 0.5) return std::nullopt;
   return glm::normalize(middle);
+}
+
+/// Returns MedianTrunk. Who squats or bows leans forwards, so if the distance from head to ankles falls by more than a
+/// seventh, only the frames with a large distance count. But if the trunk is far from the file's up direction in these,
+/// the body lies in them, and all frames count.
+std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
+  constexpr double kTall = 0.95, kDown = 6.0 / 7;
+  std::vector<double> heights;
+  for (const RecordedFrame& frame : frames) {
+    if (const auto height = HeadToAnkles(frame)) heights.push_back(*height);
+  }
+  if (!heights.empty()) {
+    const double usual = LowerPercentile(heights, 0.9);
+    const bool comes_down = LowerPercentile(std::move(heights), 0.1) < kDown * usual;
+    const auto up = comes_down ? MedianTrunk(frames, kTall * usual) : std::nullopt;
+    if (up && glm::dot(*up, kFileUp) > std::cos(kMaxTilt)) return up;
+  }
+  return MedianTrunk(frames, 0);
 }
 
 /// Lists the positions of standing feet, which are the feet slower than 0.1 m/s.

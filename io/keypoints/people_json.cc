@@ -219,8 +219,8 @@ Result<Keypoint> PointAt(const Json* x, const Json* y, const Json* sure, const P
 /// Reads a point with named coordinates. Fails if a number beside the coordinates may be a score under a name that is
 /// not known.
 Result<Keypoint> PointOf(const Json& json, const Place& place) {
-  const Json* sure = FirstMember(json, {"visibility", "visible", "score", "confidence", "conf", "likelihood",
-                                        "probability", "prob", "keypoint_score", "kp_score", "c", "p", "v"});
+  const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
+                                        "prob", "keypoint_score", "kp_score", "c", "p", "v", "visible"});
   for (const auto& [key, value] : json.items()) {
     constexpr std::array kNoScores = {"x", "y", "z", "id", "index", "presence", "world_x", "world_y", "world_z"};
     if (sure != nullptr || !value.is_number_float() || std::ranges::count(kNoScores, key) > 0) continue;
@@ -274,19 +274,22 @@ bool HasCoordinateLists(const Json& json) {
   return x != nullptr && y != nullptr && x->is_array() && y->is_array();
 }
 
-/// Reads the points of HasCoordinateLists.
-Result<std::vector<Keypoint>> PointsOfCoordinates(const Json& lists, const Place& place) {
+/// Reads the points of HasCoordinateLists, with a list of scores or null; other values than lists do not count.
+Result<std::vector<Keypoint>> PointsOfCoordinates(const Json& lists, const Json* scores, const Place& place) {
   std::vector<Keypoint> points;
   const std::size_t count = Member(lists, "x")->size();
   for (const auto& [key, list] : lists.items()) {
-    if (!list.is_array() || list.size() != count) {
-      return Fail(place, "the keypoints have {} values of x, but '{}' is {}; allowed: lists of equal length", count,
-                  key, list.is_array() ? fmt::format("a list of {}", list.size()) : ShowJson(list));
+    if (list.is_array() && list.size() != count) {
+      return Fail(place, "the keypoints have {} values of x, but '{}' is a list of {}; allowed: lists of equal length",
+                  count, key, list.size());
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
     Json point = Json::object();
-    for (const auto& [key, list] : lists.items()) point[key] = list[i];
+    for (const auto& [key, list] : lists.items()) {
+      if (list.is_array()) point[key] = list[i];
+    }
+    if (scores != nullptr && scores->is_array() && scores->size() == count) point["score"] = (*scores)[i];
     ASSIGN_OR_RETURN(const Keypoint read, PointOf(point, place));
     points.push_back(read);
   }
@@ -336,7 +339,11 @@ Result<ListedPerson> PointsOf(const Json& person, const Place& place) {
   const Json* list = person.is_array() || HasCoordinateLists(person) ? &person : KeypointsOf(person);
   ListedPerson listed;
   if (list != nullptr && HasCoordinateLists(*list)) {
-    ASSIGN_OR_RETURN(listed.points, PointsOfCoordinates(*list, place));
+    const Json* scores = nullptr;
+    if (list != &person) {
+      ASSIGN_OR_RETURN(scores, ScoresOf(person, Member(*list, "x")->size(), place));
+    }
+    ASSIGN_OR_RETURN(listed.points, PointsOfCoordinates(*list, scores, place));
     return listed;
   }
   if (list == nullptr || !list->is_array() || list->empty()) {

@@ -124,8 +124,8 @@ class Gate(EtudeCase):
 
     def test_a_baseline_or_run_of_another_version_is_told(self):
         self.make_baseline()
-        self.assertNotIn("Made by", self.gate(self.out, "--baseline", self.baseline, expect=0))
-        self.assertNotIn("Made by", self.etude("compare", self.out, self.out).stdout)
+        self.assertNotIn("Versions of Etude differ", self.gate(self.out, "--baseline", self.baseline, expect=0))
+        self.assertNotIn("Versions of Etude differ", self.etude("compare", self.out, self.out).stdout)
         text = self.baseline.read_text()
         self.baseline.write_text(re.sub('"etude":"[^"]+"', '"etude":"0.3.9"', text, count=1))
         self.assertIn("Versions of Etude differ: the baseline was made by 0.3.9, the run by ",

@@ -18,7 +18,7 @@ namespace etude {
 namespace {
 
 constexpr double kToMm = 1000;
-constexpr double kFarBetter = 0.1, kMin_mm = 50;  // of mean errors: how much a change must remove, and from how large
+constexpr double kMin_mm = 50;  // smallest mean error that a change of the answer may explain
 
 /// Returns the mean joint error, millimetres, of the answer after one change of all positions; 0 below a nanometre,
 /// which is rounding. Answer and truth must both show some joint.
@@ -51,7 +51,7 @@ std::string DoubtOnRoots(const EvaluatedPair& pair) {
 /// Returns a doubt if the answer fits far better with other axes; otherwise "". If `has_doubts`, one of the files has
 /// doubts, which usually explain another up axis.
 std::string DoubtOnAxes(const EvaluatedPair& pair, bool has_doubts) {
-  constexpr double kNearAxis = 0.99;
+  constexpr double kNearAxis = 0.99, kFarBetter = 0.1;
   const auto fit = Fit(MomentsOf(pair.found.positions, pair.truth.positions), false);
   if (!fit) return "";
   // Name, for each axis of the answer, the axis of the truth along which it lies.
@@ -170,6 +170,25 @@ std::vector<int> WithSidesExchanged(const JudgedSide& side) {
   return exchanged;
 }
 
+/// Returns true if the answer's hips lie the other way round than the truth's, frame by frame. `at(f)` is the answer's
+/// frame for frame f of the truth.
+template <typename At>
+bool AreHipsOpposed(const RawMotion& truth, const RawMotion& answer, const At& at) {
+  const auto across = [](const RawMotion& motion, std::size_t frame) {
+    const int left = motion.roles[Index(Role::kLeftHip)], right = motion.roles[Index(Role::kRightHip)];
+    if (left < 0 || right < 0) return NotSeen();
+    return motion.At(frame, static_cast<std::size_t>(left)) - motion.At(frame, static_cast<std::size_t>(right));
+  };
+  double sum = 0;
+  for (std::size_t f = 0; f < truth.FrameCount(); ++f) {
+    const double frame = std::round(at(static_cast<double>(f)));
+    if (frame < 0 || frame >= static_cast<double>(answer.FrameCount())) continue;
+    const double alike = glm::dot(across(truth, f), across(answer, static_cast<std::size_t>(frame)));
+    if (std::isfinite(alike)) sum += alike;
+  }
+  return sum < 0;
+}
+
 /// Returns a doubt if the answer fits far better at other times, or with left and right exchanged, which in a walk
 /// looks like a lag of half a cycle; otherwise "".
 std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_side, double start_s) {
@@ -207,10 +226,9 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
     }
   }
   const std::vector<int> joints = WithSidesExchanged(found_side);
-  const auto exchanged = DistanceComparison(true_side, {answer, joints}).Compare([&](double f) {
-    return (f / truth.rate_hz + start_s) * answer.rate_hz;
-  });
-  if (exchanged.rms_m <= best_m && exchanged.rms_m < kBetter * paired.rms_m) {
+  const auto unmoved = [&](double f) { return (f / truth.rate_hz + start_s) * answer.rate_hz; };
+  const auto exchanged = DistanceComparison(true_side, {answer, joints}).Compare(unmoved);
+  if (exchanged.rms_m < kBetter * paired.rms_m && AreHipsOpposed(truth, answer, unmoved)) {
     return fmt::format(
         "the answer's left and right seem to be exchanged: with the joints of the other side, distances between joints "
         "differ by {:.3g} mm instead of {:.3g}",

@@ -14,10 +14,11 @@ namespace etude {
 /// - axes: a permutation of the answer's axes, some of them reversed, removes nine tenths of the mean joint error
 ///   (if there is a doubt about one of the files, only with Y up in both);
 /// - place: if none of these, one displacement of all positions removes 96 % of the mean joint error;
-/// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large;
+/// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large,
+///   and the hips lie the other way round than the truth's;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
 ///   large. A shift has at least one frame and at most kMaxTimeShift_s, and FindLag must find a shift, too. If a lag
-///   was already removed (`matched.lag`), times are not searched.
+///   was already removed (`matched.lag`), neither sides nor times are searched.
 /// Limits and method are our own. `matched` holds the judged joints frame by frame. The truth's first frame is paired
 /// with the answer at `start_s`.
 std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,
