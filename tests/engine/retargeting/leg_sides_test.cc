@@ -22,10 +22,13 @@ struct Posture {
   std::string_view mirrored;  ///< what the mirror image shows
 };
 
-constexpr Posture kPostures[] = {
-    {"standing", 0, 0, 0, "the feet point backwards"},      {"squat", 1.6, 1.9, -0.5, "the feet point backwards"},
-    {"kneeling", 0, 1.57, 1.2, "the knees bend backwards"}, {"seiza", 1.7, 2.6, 1.0, "the knees bend backwards"},
-    {"bridge", -0.5, 1.2, 0, "the feet point backwards"},   {"toes pointed", 0, 0, 1.2, ""}};
+constexpr Posture kPostures[] = {{"standing", 0, 0, 0, "the feet point backwards"},
+                                 {"squat", 1.6, 1.9, -0.5, "the feet point backwards"},
+                                 {"kneeling", 0, 1.57, 1.2, "the knees bend backwards"},
+                                 {"seiza", 1.7, 2.6, 1.0, "the knees bend backwards"},
+                                 {"bridge", -0.5, 1.2, 0, "the feet point backwards"},
+                                 {"toes pointed", 0, 0, 1.2, ""},
+                                 {"overextended", 0, -0.5, 1.2, ""}};  // by 29°, as depth sensors show knees
 
 LegSides LegsOf(const BodyPose& pose) {
   LegSides legs;

@@ -642,6 +642,12 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
       "to 25 of 40, because joints are missing in other frames for over 1 s");
   EXPECT_THAT(bodies->front().doubts,
               ::testing::ElementsAre(HasSubstr("interpolated in gaps"), HasSubstr("frames 1 to 25")));
+  // Short gaps of several joints, one after the other, are no long gap.
+  MarkerMotion flickering = OwnJoints();
+  flickering.rate_hz = 10;
+  for (std::size_t t = 5; t < 20; ++t) flickering.frames[t][t % 2 == 0 ? wrist : knee].reset();
+  ASSERT_OK(short_gaps, FindMarkerBodies(flickering, "a.trc"));
+  EXPECT_EQ(short_gaps->front().Note(), "Etude's joints; 15 positions interpolated in gaps");
   // Who also gets the positions as the file shows them need not doubt the others.
   ASSERT_OK(shown, FindMarkerBodies(take, "a.trc", {.keeps_shown = true}));
   EXPECT_THAT(shown->front().doubts, ::testing::IsEmpty());

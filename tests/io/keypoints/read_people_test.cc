@@ -307,6 +307,10 @@ TEST_F(ReadPeople, ReadsOneListForEachCoordinate) {
                 .confidence,
             1);
   EXPECT_EQ(ReadKeypoints(Write("bare.json", person(xy)), "")->frames[0][0][Landmark::kNose].confidence, 1);
+  // A score counts more than a flag, also if it stands beside the keypoints; numbers beside the lists do not count.
+  const auto scored = Write("scored.json", R"([[{"track_id": 3, "keypoints": {)" + xy + sure + list("true") +
+                                               R"(, "id": 7}, "keypoint_scores": )" + list("0.25") + "}]]");
+  EXPECT_DOUBLE_EQ(ReadKeypoints(scored, "")->frames[0][0][Landmark::kNose].confidence, 0.25);
   // Lists of other lengths and texts are refused, not taken for keypoints that were not seen.
   EXPECT_THAT(Reason(Write("short.json", person(xy + sure + "[1, 1]"))),
               HasSubstr("17 values of x, but 'visible' is a list of 2"));
