@@ -15,7 +15,9 @@ void LegSides::Add(const glm::dvec3& left, const glm::dvec3& hip, const glm::dve
   const glm::dvec3 axis = glm::normalize(left), along = glm::normalize(shank);
   feet_ += glm::dot(glm::cross(axis, along), glm::normalize(foot));
   const glm::dvec3 upper = glm::normalize(thigh);
-  knees_ += std::atan2(glm::dot(axis, glm::cross(upper, along)), glm::dot(upper, along));  // bend about `left`
+  const double bend = std::atan2(glm::dot(axis, glm::cross(upper, along)), glm::dot(upper, along));  // about `left`
+  constexpr double kOverextended = Radians(-40);  // depth sensors show straight knees so
+  if (bend < kOverextended || bend > 0) knees_ += std::sin(bend);
   ++count_;
 }
 
@@ -24,11 +26,10 @@ std::optional<double> LegSides::FeetForward() const {
 }
 
 std::string_view LegSides::Backwards() const {
-  // Depth sensors overextend knees by up to 35°.
-  constexpr double kUndecided = 0.35, kBackwards = Radians(-40);
+  constexpr double kUndecided = 0.35;
   if (count_ == 0 || feet_ > kUndecided * count_) return "";
   if (feet_ < -kUndecided * count_) return "the feet point backwards";
-  return knees_ < kBackwards * count_ ? "the knees bend backwards" : "";
+  return knees_ < -kUndecided * count_ ? "the knees bend backwards" : "";
 }
 
 }  // namespace etude

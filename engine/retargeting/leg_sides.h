@@ -23,7 +23,7 @@ class LegSides {
   std::string_view Backwards() const;
 
  private:
-  double feet_ = 0, knees_ = 0;  // sums over legs and frames: shares, and bends in radians (backwards: negative)
+  double feet_ = 0, knees_ = 0;  // sums over legs and frames; knees: sines of bends, without slight backward ones
   int count_ = 0;
 };
 
