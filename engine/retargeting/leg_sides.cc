@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "engine/base/angles.h"
-
 namespace etude {
 
 void LegSides::Add(const glm::dvec3& left, const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle,
@@ -15,9 +13,11 @@ void LegSides::Add(const glm::dvec3& left, const glm::dvec3& hip, const glm::dve
   const glm::dvec3 axis = glm::normalize(left), along = glm::normalize(shank);
   feet_ += glm::dot(glm::cross(axis, along), glm::normalize(foot));
   const glm::dvec3 upper = glm::normalize(thigh);
-  const double bend = std::atan2(glm::dot(axis, glm::cross(upper, along)), glm::dot(upper, along));  // about `left`
-  constexpr double kOverextended = Radians(-40);  // depth sensors show straight knees so
-  if (bend < kOverextended || bend > 0) knees_ += std::sin(bend);
+  // The knee's bend about `left`. Depth sensors overextend straight knees, which is no evidence below 40°.
+  constexpr double kCosineOf40 = 0.766;
+  const double sine = glm::dot(axis, glm::cross(upper, along)), cosine = glm::dot(upper, along);
+  const double size = std::sqrt(sine * sine + cosine * cosine);
+  if (sine > 0 || (size > 0 && cosine < kCosineOf40 * size)) knees_ += sine / size;
   ++count_;
 }
 

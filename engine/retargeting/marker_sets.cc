@@ -136,7 +136,7 @@ bool AreOwnJoints(const MarkerColumns& columns) {
 }
 
 /// Chooses among MarkerSets. Other programs also write names such as "left_hip", so Etude's set is only chosen if the
-/// user wants it, or if AreOwnJoints.
+/// user wants it, or if AreOwnJoints is true.
 ChosenSet ChooseKnown(const MarkerColumns& columns, const std::string& wanted) {
   std::vector<std::pair<const MarkerSet*, std::size_t>> complete;
   for (const MarkerSet& set : MarkerSets()) {

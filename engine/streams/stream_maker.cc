@@ -57,7 +57,7 @@ std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
     const double usual = LowerPercentile(heights, 0.9);
     const bool comes_down = LowerPercentile(std::move(heights), 0.1) < kDown * usual;
     const auto up = comes_down ? MedianTrunk(frames, kTall * usual) : std::nullopt;
-    if (up && glm::dot(*up, kFileUp) > std::cos(kMaxTilt)) return up;
+    if (up && AngleBetween(*up, kFileUp) <= kMaxTilt) return up;
   }
   return MedianTrunk(frames, 0);
 }

@@ -642,7 +642,7 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
       "to 25 of 40, because joints are missing in other frames for over 1 s");
   EXPECT_THAT(bodies->front().doubts,
               ::testing::ElementsAre(HasSubstr("interpolated in gaps"), HasSubstr("frames 1 to 25")));
-  // Short gaps of several joints, one after the other, are no long gap.
+  // Short gaps of different joints that follow each other are not one long gap.
   MarkerMotion flickering = OwnJoints();
   flickering.rate_hz = 10;
   for (std::size_t t = 5; t < 20; ++t) flickering.frames[t][t % 2 == 0 ? wrist : knee].reset();

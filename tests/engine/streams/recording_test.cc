@@ -366,7 +366,7 @@ TEST(Streams, TheNamesOfAHeadingTellTheJointsOfAKinect) {
       EXPECT_LT(FurthestFrom(motion, {.rate_hz = 30, .frames = frames}), 1e-3);
     }
   }
-  // Headings that name no joints leave the SDK's order.
+  // If the headings name no joints, the rows are in the order of the SDK.
   int column = 0;
   const auto numbered = [&](const std::string&, char axis) { return fmt::format("joint{}_{}", column++ / 3, axis); };
   EXPECT_LT(FurthestFrom(motion, Made(NamedTable(motion, sdk, false, numbered)).stream), 1e-3);

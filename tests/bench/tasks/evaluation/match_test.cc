@@ -598,7 +598,7 @@ TEST(DoubtsOnPair, NameTheDisplacementOfAllPositions) {
   EXPECT_THAT(Doubts(truth, raised),
               ElementsAre(HasSubstr("all of the answer is displaced by (0.000, 1.040, -0.250) m")));
   EXPECT_THAT(Doubts(truth, WithErrors(raised, 0.03)), ElementsAre(HasSubstr("all of the answer is displaced by")));
-  // Not of a displacement that errors hide, or of one that is small.
+  // A displacement that errors hide, and a small one, are not doubted.
   EXPECT_THAT(Doubts(truth, WithErrors(raised, 0.3)), IsEmpty());
   EXPECT_THAT(Doubts(truth, Changed(truth, [](const glm::dvec3& p) { return p + glm::dvec3(0, 0.04, 0); })), IsEmpty());
 }
