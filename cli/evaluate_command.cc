@@ -21,6 +21,7 @@
 #include "cli/facts.h"
 #include "cli/named_results.h"
 #include "cli/pair_notes.h"
+#include "cli/run_outcome.h"
 #include "engine/base/csv.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/map_file.h"
@@ -239,6 +240,7 @@ Result<int> EvaluateCommand(const EvaluateOptions& options) {
     if (options.by_joint) facts["joints"] = FactsOf(ErrorsByJoint(data));
     facts["judged"] = notes.judged.Lines();
     facts["not_judged"] = options.alone.is_alone ? triage.not_judged : notes.every_not_judged;
+    facts["left_out"] = LeftOutIn(*outcome);
     if (options.alone.is_alone) facts["with_faults"] = triage.faulty;
     if (triage.has_limits) facts["beyond_limits"] = triage.beyond_limits;
     RETURN_IF_ERROR(PrintFacts("evaluate", std::move(facts)));

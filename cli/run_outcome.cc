@@ -238,10 +238,17 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, 
           {"scenarios", std::move(scenarios)},
           {"without_answer", std::move(silent)},
           {"failures", std::move(failed)},
+          {"left_out", LeftOutIn(outcome)},
           {"doubts", doubts.lines()}};
 }
 
 }  // namespace
+
+std::vector<std::string> LeftOutIn(const RunOutcome& outcome) {
+  std::vector<std::string> lines;
+  for (const RefusedClip& one : outcome.refused) lines.push_back(one.clip + ": " + one.why);
+  return lines;
+}
 
 int ShowOutcome(const RunOutcome& outcome) {
   auto run = LoadRunOutline(outcome.folder);

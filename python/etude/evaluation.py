@@ -93,6 +93,7 @@ def evaluate(truth=None, *, names=None, rate_hz=None, pairs=None, joints=None, p
         whose, _, text = doubt.partition(": ")
         method = "" if text.startswith("the truth: ") else whose.partition(", ")[0]
         kinds.setdefault((method, re.sub(r"[\d.]+", "", text)), []).append(doubt)  # but for numbers, one kind
+    kinds.update({left: [left] for left in facts["left_out"]})
     for first, *similar in kinds.values():
         warnings.warn(first + (f" (and {len(similar)} similar)" if similar else ""), DoubtWarning, stacklevel=2)
     if code != 0:

@@ -313,7 +313,9 @@ class Evaluate(EtudeCase):
                              ("c", moved("head", 0.02, half))):
             self.trc_file(f"t/{name}.trc", self.frames)
             self.trc_file(f"m/{name}.trc", answer)
+        self.trc_file("m/other.trc", self.frames)
         facts = self.facts("evaluate", self.folder / "t", f"m={self.folder}/m", "--by-joint", "-o", self.out)
+        self.assertEqual(facts["left_out"], [f"{self.folder}/m/other.trc: no truth is named 'other'"])
         errors = {one["joint"]: one for one in facts["joints"]}
         self.assertEqual(len(errors), 20)
         for key in "pairs", "root_pairs", "each_frame_scaled_pairs":

@@ -107,8 +107,9 @@ methods: [{name: hue}]
         scenario = self.write("t.yaml", f"scenario: t\nquestion: q?\ntask: tracking\nclips: ['{clips}/*.bvh']\ntrials: 4\n"
                                         "methods: [{name: a, solver: damped-least-squares}]\n")
         self.assertIn(f"b.bvh: is left out: is a byte copy of '{clips}/a.bvh'", self.ends(0, "run", scenario, "--dry-run").stderr)
-        told = self.ends(0, "run", scenario, "-o", self.out)
+        told = self.ends(0, "run", scenario, "-o", self.out, "--json")
         self.assertIn(f"b.bvh: was left out: is a byte copy of '{clips}/a.bvh'", told.stderr)
+        self.assertEqual([line.partition(": ")[0] for line in json.loads(told.stdout)["left_out"]], [f"{clips}/b.bvh"])
         setup, = json.loads((self.out / "manifest.json").read_text())["scenarios"]
         self.assertEqual([one["clip"] for one in setup["refused"]], [f"{clips}/b.bvh"])
         self.assertEqual(len(setup["loaded_clips"]), 2)

@@ -162,11 +162,12 @@ class Evaluate(PythonCase):
                            output=self.folder / "none", progress=False)
 
     def test_pairs_that_are_not_judged_warn(self):
-        for folder, names in ("t", "ab"), ("m", "a"):
+        for folder, names in ("t", "ab"), ("m", "ac"):
             (self.folder / folder).mkdir()
             for name in names:
                 (self.folder / folder / f"{name}.npz").write_bytes(_npz(standing(9), NAMES, 30, {}, name))
-        with self.assertWarnsRegex(UserWarning, "1 of 2 pairs are not judged: mine, b: the method has no answer"):
+        with (self.assertWarnsRegex(UserWarning, "1 of 2 pairs are not judged: mine, b: the method has no answer"),
+              self.assertWarnsRegex(etude.DoubtWarning, r"c\.npz: no truth is named 'c'")):
             run = etude.evaluate(self.folder / "t", mine=self.folder / "m", output=self.folder / "two", progress=False)
         self.assertEqual([row["status"] for row in run["evaluate"].rows()], ["ok", "failed"])
 
