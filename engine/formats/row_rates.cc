@@ -7,9 +7,6 @@
 
 namespace etude {
 
-/// Returns the rate that best fits steps of one to three frames, starting from the rate of the median step. If
-/// `only_clear_steps`, steps about half-way between whole numbers of frames are left out; they occur beside a row at a
-/// wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps) {
   constexpr double kUnclear = 0.4;  // a step farther than this from a whole number of frames is unclear
   constexpr int kRounds = 4;
