@@ -174,9 +174,10 @@ class JournalRecorder {
   const std::function<void(const Progress&)>& on_progress_;
 };
 
-Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
+/// Returns the outcome of a folder whose run is finished.
+Result<RunOutcome> AlreadyWhole(const fs::path& folder, const SuiteSetup& suite) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
-  RunOutcome outcome{.folder = folder};
+  RunOutcome outcome{.folder = folder, .refused = LeftOutOf(suite)};
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ConditionSummary& condition : scenario.conditions) {
       for (const MethodSummary& method : condition.methods) {
@@ -186,6 +187,34 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
     }
   }
   return outcome;
+}
+
+/// Returns a complaint for each scenario that films no trial of this run, although it shall film some.
+std::vector<Error> UnfilmedIn(const std::vector<PreparedScenario>& scenarios) {
+  std::vector<Error> unfilmed;
+  for (const PreparedScenario& scenario : scenarios) {
+    const std::vector<int>& filmed = scenario.scenario().recordings.trials;
+    const int trials = scenario.scenario().trials;
+    if (filmed.empty() || std::ranges::min(filmed) < trials) continue;
+    unfilmed.push_back({{scenario.setup().file, 0, 0},
+                        fmt::format("scenario {} kept no motion, because 'video' selects no trial below {}",
+                                    scenario.scenario().name, trials)});
+  }
+  return unfilmed;
+}
+
+/// Returns the changes that reading made to the content of clip files, each change once.
+std::vector<LoadedChange> ChangesIn(const std::vector<PreparedScenario>& scenarios) {
+  std::vector<LoadedChange> changes;
+  std::set<std::pair<std::string, std::string>> told;
+  for (const PreparedScenario& scenario : scenarios) {
+    for (const LibraryClip& clip : scenario.clips().clips) {
+      for (const std::string& change : clip.changes) {
+        if (told.emplace(clip.source, change).second) changes.push_back({clip.source, change});
+      }
+    }
+  }
+  return changes;
 }
 
 /// An open journal, and the progress of the run when the journal was opened.
@@ -284,7 +313,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries, scenarios));
-    if (state == FolderState::kFinished) return AlreadyWhole(folder);
+    if (state == FolderState::kFinished) return AlreadyWhole(folder, suite);
     if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
   // Open the journal, and run the cells that the journal lacks.
@@ -332,23 +361,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .why_unlocked = claimed.why_unlocked(),
                      .damaged_lines = std::move(opened.damaged)};
   outcome.refused = LeftOutOf(suite);
-  for (const PreparedScenario& scenario : scenarios) {
-    const std::vector<int>& filmed = scenario.scenario().recordings.trials;
-    const int trials = scenario.scenario().trials;
-    if (filmed.empty() || std::ranges::min(filmed) < trials) continue;
-    outcome.unfilmed.push_back({{scenario.setup().file, 0, 0},
-                                fmt::format("scenario {} kept no motion, because 'video' selects no trial below {}",
-                                            scenario.scenario().name, trials)});
-  }
-  // List the changes that reading made to the content of clip files, each change once.
-  std::set<std::pair<std::string, std::string>> told;
-  for (const PreparedScenario& scenario : scenarios) {
-    for (const LibraryClip& clip : scenario.clips().clips) {
-      for (const std::string& change : clip.changes) {
-        if (told.emplace(clip.source, change).second) outcome.changes.push_back({clip.source, change});
-      }
-    }
-  }
+  outcome.unfilmed = UnfilmedIn(scenarios);
+  outcome.changes = ChangesIn(scenarios);
   // Unless the user stopped the run, write the final results.
   if (outcome.stopped) return outcome;
   claimed.Keep();
