@@ -129,6 +129,16 @@ bool NameJoints(std::span<const JointHeading> headings) {
   return joints.size() >= kMinNames || (names.size() >= kMinNames && 2 * axes >= headings.size());
 }
 
+/// Returns true if each heading stands above the first number of a joint, and the headings of its other numbers are
+/// empty, as spreadsheets write cells that are merged.
+bool AreMerged(std::span<const std::string> texts, const KinectColumns& columns) {
+  if (texts.size() <= columns.first + columns.joints) return false;
+  for (std::size_t i = columns.first; i < texts.size(); ++i) {
+    if (texts[i].empty() == ((i - columns.first) % columns.per_joint == 0)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<std::vector<std::size_t>> FindKinectJoints(const NumberRows& table, const KinectColumns& columns,
@@ -136,7 +146,8 @@ Result<std::vector<std::size_t>> FindKinectJoints(const NumberRows& table, const
   // Take the headings apart. A longer line is no line of headings.
   constexpr std::size_t kMaxHeadingBytes = 1 << 16;
   if (table.heading.size() > kMaxHeadingBytes) return std::vector<std::size_t>{};
-  const std::vector<std::string> texts = HeadingsOf(table.heading);
+  std::vector<std::string> texts = HeadingsOf(table.heading);
+  if (AreMerged(texts, columns)) std::erase(texts, "");
   std::vector<JointHeading> headings;
   for (const std::string& text : texts) headings.push_back(JointHeadingOf(text, columns.joints));
   if (!NameJoints(headings)) return std::vector<std::size_t>{};
