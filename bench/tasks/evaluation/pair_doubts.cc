@@ -91,6 +91,38 @@ std::string DoubtOnPlace(const EvaluatedPair& pair) {
       away.x, away.y, away.z, after, before);
 }
 
+/// Returns a doubt if the answer fits far better after a rotation that exchanges no axes, or at another size; otherwise
+/// "". `has_doubts` is as for DoubtOnAxes.
+std::string DoubtOnHeading(const EvaluatedPair& pair, bool has_doubts) {
+  constexpr double kFarBetter = 0.1, kBetter = 0.5, kMinSize = 0.02, kMinTurn_deg = 2, kUpright = 0.999;
+  const PointMoments moments = MomentsOf(pair.found.positions, pair.truth.positions);
+  const auto turned = Fit(moments, false), sized = Fit(moments, true);
+  if (!turned || !sized) return "";
+  const double before = MeanErrorAfter(pair, {}), of_turned = MeanErrorAfter(pair, *turned),
+               of_sized = MeanErrorAfter(pair, *sized);
+  const bool is_sized = of_sized < kBetter * of_turned && std::abs(sized->scale - 1) > kMinSize;
+  const double after = is_sized ? of_sized : of_turned;
+  if (before < kMin_mm || after > kFarBetter * before) return "";
+  // State the rotation from the truth to the answer: about Y if the answer stays upright.
+  const glm::dmat3 away = glm::transpose(turned->rotation);
+  const double angle_deg =
+      glm::degrees(std::acos(std::clamp((away[0][0] + away[1][1] + away[2][2] - 1) / 2, -1.0, 1.0)));
+  const bool is_upright = away[1][1] > kUpright;
+  if (!is_upright && has_doubts) return "";
+  std::string change;
+  if (angle_deg >= kMinTurn_deg) {
+    change = is_upright ? fmt::format("turned by {:.0f}° about Y", std::copysign(angle_deg, away[2][0]))
+                        : fmt::format("turned by {:.0f}°, and its up axis leans by {:.0f}°", angle_deg,
+                                      glm::degrees(std::acos(std::clamp(away[1][1], -1.0, 1.0))));
+  }
+  if (is_sized) change += fmt::format("{}{:.3f} times as large", change.empty() ? "" : " and ", 1 / sized->scale);
+  if (change.empty()) return "";
+  return fmt::format(
+      "all of the answer is {}: without this, and moved, its mean error is {:.3g} mm instead of {:.3g}; are both files "
+      "in the same coordinates?",
+      change, after, before);
+}
+
 /// Compares distances between joints, on which a file's origin, axes and root have no effect. At most eight joints and
 /// 150 frames of the truth, evenly chosen, are compared.
 class DistanceComparison {
@@ -272,6 +304,7 @@ std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide&
   const bool has_doubts = !truth.motion.doubts.empty() || !answer.motion.doubts.empty();
   std::vector<std::string> doubts{DoubtOnRoots(matched.pair), DoubtOnAxes(matched.pair, has_doubts)};
   if (doubts[0].empty() && doubts[1].empty()) doubts.push_back(DoubtOnPlace(matched.pair));
+  if (std::ranges::all_of(doubts, &std::string::empty)) doubts.push_back(DoubtOnHeading(matched.pair, has_doubts));
   if (!matched.lag) doubts.push_back(DoubtOnTimes(truth, answer, start_s));
   std::erase(doubts, "");
   return doubts;

@@ -14,6 +14,8 @@ namespace etude {
 /// - axes: a permutation of the answer's axes, some of them reversed, removes nine tenths of the mean joint error
 ///   (if there is a doubt about one of the files, only with Y up in both);
 /// - place: if none of these, one displacement of all positions removes 96 % of the mean joint error;
+/// - heading and size: if none of these, one rotation, displacement and size of all positions removes nine tenths of it
+///   (if there is a doubt about one of the files, only with Y up in both);
 /// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large,
 ///   and the hips lie the other way round than the truth's;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
