@@ -253,7 +253,7 @@ std::optional<ClockRate> ChooseRate(const ClockRows& clock, std::optional<double
 
 /// Returns `count` frames at a rate; each lies on a row, between two rows, or in a hole.
 std::vector<GridFrame> PlaceFrames(const ClockRows& clock, const ClockRate& rate, std::size_t count) {
-  constexpr double kMissing = 1.5;  // a row is missing if neighbouring rows are at least this many frames apart
+  constexpr double kMissingRow = 1.5;  // a row is missing if neighbouring rows are at least this many frames apart
   const double slack = clock.Tolerance(rate.hz);
   const auto place_of = [&](std::size_t i) { return (clock.times_s[i] - clock.Start()) * rate.hz; };
   std::vector<GridFrame> frames;
@@ -265,7 +265,7 @@ std::vector<GridFrame> PlaceFrames(const ClockRows& clock, const ClockRate& rate
     GridFrame& made = frames.emplace_back(GridFrame{clock.rows[at], clock.rows[at]});
     if (next == at || std::abs(frame - place_of(at)) <= slack) continue;
     const double step = place_of(next) - place_of(at);
-    made = {clock.rows[at], clock.rows[next], (frame - place_of(at)) / step, step >= kMissing && !rate.is_uneven};
+    made = {clock.rows[at], clock.rows[next], (frame - place_of(at)) / step, step >= kMissingRow && !rate.is_uneven};
   }
   return frames;
 }
