@@ -35,6 +35,11 @@ glm::dvec3 CubicAt(const PointTracks& tracks, double at, std::size_t joint) {
 struct Distances {
   std::vector<double> truth, rate, found;
   std::vector<std::size_t> frames;
+
+  void Clear() {
+    for (std::vector<double>* values : {&truth, &rate, &found}) values->clear();
+    frames.clear();
+  }
 };
 
 /// The least-squares line of the answer's distances as a function of the true distances. Its slope is at least 0.
@@ -79,37 +84,39 @@ class ShiftFinder {
   }
 
  private:
-  /// Collects the distances of all pairs of joints in every `stride`-th frame, except the first and the last frame.
-  std::vector<Distances> DistancesAt(double shift_s, std::size_t stride) const {
+  /// Calls `visit` with the distances of each pair of joints in every `stride`-th frame, except the first and the last
+  /// frame. All calls share one object, because a shift is tried hundreds of times.
+  template <typename Visit>
+  void VisitPairs(double shift_s, std::size_t stride, const Visit& visit) const {
     const std::size_t n = joints_.size();
-    std::vector<Distances> pairs(n * (n - 1) / 2);
-    std::vector<glm::dvec3> found(n);
+    std::vector<std::size_t> frames;
+    std::vector<glm::dvec3> found;  // frames × joints
     for (std::size_t f = 1; f + 1 < truth_.FrameCount(); f += stride) {
+      frames.push_back(f);
       const double at = (static_cast<double>(f) / truth_rate_hz_ + shift_s) * answer_rate_hz_;
-      for (std::size_t j = 0; j < n; ++j) found[j] = CubicAt(answer_, at, joints_[j]);
-      std::size_t pair = 0;
-      for (std::size_t a = 0; a < n; ++a) {
-        for (std::size_t b = 0; b < a; ++b, ++pair) {
-          const auto distance = [&](std::size_t frame) {
-            return glm::distance(truth_.Frame(frame)[joints_[a]], truth_.Frame(frame)[joints_[b]]);
-          };
+      for (const std::size_t joint : joints_) found.push_back(CubicAt(answer_, at, joint));
+    }
+    Distances pair;
+    for (std::size_t a = 0; a < n; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        pair.Clear();
+        const auto distance = [&](std::size_t frame) {
+          return glm::distance(truth_.Frame(frame)[joints_[a]], truth_.Frame(frame)[joints_[b]]);
+        };
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+          const std::size_t f = frames[i];
+          const double of_found = glm::distance(found[i * n + a], found[i * n + b]);
+          if (std::isnan(of_found)) continue;
           const double s = distance(f), rate = 0.5 * truth_rate_hz_ * (distance(f + 1) - distance(f - 1));
-          const double of_found = glm::distance(found[a], found[b]);
-          if (std::isnan(s + rate + of_found)) continue;
-          pairs[pair].truth.push_back(s);
-          pairs[pair].rate.push_back(rate);
-          pairs[pair].found.push_back(of_found);
-          pairs[pair].frames.push_back(f);
+          if (std::isnan(s + rate)) continue;
+          pair.truth.push_back(s);
+          pair.rate.push_back(rate);
+          pair.found.push_back(of_found);
+          pair.frames.push_back(f);
         }
+        visit(pair);
       }
     }
-    return pairs;
-  }
-
-  static std::size_t CountOf(const std::vector<Distances>& pairs) {
-    std::size_t count = 0;
-    for (const Distances& pair : pairs) count += pair.truth.size();
-    return count;
   }
 
   /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, if the best one
@@ -117,22 +124,24 @@ class ShiftFinder {
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
-    const std::size_t fewest = std::max(CountOf(DistancesAt(0, stride)) / 2, kMinFrames);
+    std::size_t unmoved = 0;
+    VisitPairs(0, stride, [&](const Distances& pair) { unmoved += pair.truth.size(); });
+    const std::size_t fewest = std::max(unmoved / 2, kMinFrames);
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
     std::optional<int> best;
     double largest = 0;
     // Try small shifts first: if two shifts fit equally well, the smaller one is kept.
     for (int at = 0; at <= 2 * reach; ++at) {
       const int shift = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
-      const std::vector<Distances> pairs = DistancesAt(shift / truth_rate_hz_, stride);
-      if (CountOf(pairs) < fewest) continue;
+      std::size_t compared = 0;
       double explained = 0, all = 0;
-      for (const Distances& pair : pairs) {
+      VisitPairs(shift / truth_rate_hz_, stride, [&](const Distances& pair) {
+        compared += pair.truth.size();
         const Line line = FitLine(pair);
         explained += line.explained;
         all += line.all;
-      }
-      if (!(explained > largest * all)) continue;
+      });
+      if (compared < fewest || !(explained > largest * all)) continue;
       best = shift;
       largest = explained / all;
     }
@@ -151,8 +160,8 @@ class ShiftFinder {
   Step StepAt(double shift_s) const {
     Step step;
     step.products.assign(truth_.FrameCount(), 0.0);
-    for (const Distances& pair : DistancesAt(shift_s, 1)) {
-      if (pair.truth.size() < kMinFrames) continue;
+    VisitPairs(shift_s, 1, [&](const Distances& pair) {
+      if (pair.truth.size() < kMinFrames) return;
       const Line line = FitLine(pair);
       constexpr double kExact_m2 = 1e-6;  // 1 mm²
       const double n = static_cast<double>(pair.truth.size());
@@ -172,7 +181,7 @@ class ShiftFinder {
         step.motion += own * own;
       }
       step.count += n;
-    }
+    });
     return step;
   }
 
