@@ -283,30 +283,33 @@ class Mender {
     return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
   }
 
-  /// Returns the facing direction from landmarks without a side, or from midpoints of both sides; nullopt if these
-  /// landmarks are not seen.
-  std::optional<glm::dvec3> ForwardOf(std::size_t frame) const {
-    auto from = MiddleOf(frame, kLeftHeel, kRightHeel), to = MiddleOf(frame, kLeftBigToe, kRightBigToe);
-    if (!from) from = MiddleOf(frame, kLeftAnkle, kRightAnkle);
-    if (!from || !to) {
-      from = MiddleOf(frame, kLeftEar, kRightEar);
-      to = PositionOf(frame, kNose);
-    }
-    return from && to ? std::optional(*to - *from) : std::nullopt;
+  /// Returns the cosine between the direction `from` → `to` and the front of a body part, whose left side is `left` and
+  /// whose lower and upper end are `low` and `high`. Returns nullopt if a point is missing or the cosine says little.
+  static std::optional<double> FacingOf(const glm::dvec3& left, const std::optional<glm::dvec3>& low,
+                                        const std::optional<glm::dvec3>& high, const std::optional<glm::dvec3>& from,
+                                        const std::optional<glm::dvec3>& to) {
+    if (!low || !high || !from || !to) return std::nullopt;
+    const glm::dvec3 front = glm::cross(left, *high - *low), forward = *to - *from;
+    const double cosine = glm::dot(front, forward) / (glm::length(front) * glm::length(forward));
+    constexpr double kSaysLittle = 0.3;
+    return std::abs(cosine) > kSaysLittle ? std::optional(cosine) : std::nullopt;
   }
 
   /// Returns a value above 0 if the left landmarks are on the body's left side, below 0 if they are on its right side;
-  /// nullopt if landmarks are missing or the side is ambiguous.
+  /// nullopt if landmarks are missing or the side is ambiguous. The evidence is the feet relative to the shanks, so the
+  /// body may stand, kneel, bend or lie; otherwise the nose relative to the trunk. Both come from landmarks without a
+  /// side, or from midpoints of both sides.
   std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
-    const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
     const auto left = PositionOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
     const auto right = PositionOf(frame, group == 0 ? kRightShoulder : kRightHip);
-    const auto forward = ForwardOf(frame);
-    if (!hips || !shoulders || !left || !right || !forward) return std::nullopt;
-    const glm::dvec3 facing = glm::cross(*left - *right, *shoulders - *hips);
-    const double cosine = glm::dot(facing, *forward) / (glm::length(facing) * glm::length(*forward));
-    constexpr double kSaysLittle = 0.3;
-    return std::abs(cosine) > kSaysLittle ? std::optional(cosine) : std::nullopt;
+    if (!left || !right) return std::nullopt;
+    const auto ankles = MiddleOf(frame, kLeftAnkle, kRightAnkle), heels = MiddleOf(frame, kLeftHeel, kRightHeel);
+    const auto by_feet = FacingOf(*left - *right, ankles, MiddleOf(frame, kLeftKnee, kRightKnee),
+                                  heels ? heels : ankles, MiddleOf(frame, kLeftBigToe, kRightBigToe));
+    if (by_feet) return by_feet;
+    return FacingOf(*left - *right, MiddleOf(frame, kLeftHip, kRightHip),
+                    MiddleOf(frame, kLeftShoulder, kRightShoulder), MiddleOf(frame, kLeftEar, kRightEar),
+                    PositionOf(frame, kNose));
   }
 
   bool HasFlip(std::size_t group, std::size_t frame) const {

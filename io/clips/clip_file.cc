@@ -225,7 +225,8 @@ Result<ClipFile> FileOfArray(const NumberArray& array, const std::optional<std::
   ASSIGN_OR_RETURN(motion, LayOnClock(std::move(motion), std::move(clock), path));
   MarkerOptions told = ToldOfMarkers(options, is_known ? CameraUp() : ArrayUp());
   told.layout = std::move(joints.layout);
-  if (told.set.empty()) told.set = "etude";  // the layout has named the joints
+  const bool has_own_names = std::ranges::find(motion.names, RoleName(Role::kLeftHip)) != motion.names.end();
+  if (told.set.empty() && has_own_names) told.set = "etude";  // some layouts use the names of a known marker set
   told.is_of_camera = is_known || joints.is_of_camera;
   ASSIGN_OR_RETURN(auto file,
                    FileOfMarkers(is_known ? ClipFormat::kNpz : ClipFormat::kNpy, std::move(motion), path, told));

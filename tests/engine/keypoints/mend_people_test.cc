@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "tests/engine/keypoints/walkers.h"
@@ -21,7 +24,9 @@ struct MendedTake {
   std::vector<SeenPeople> people;
   MatchedPerson person, truth;
 
-  explicit MendedTake(std::size_t count, double sigma_px = 1) {
+  using Figure = std::function<LandmarkPositions(double x, double z, double seconds)>;
+
+  explicit MendedTake(std::size_t count, double sigma_px = 1, const Figure& figure = Walker) {
     RandomStream dice = WalkersDice("mended");
     const std::vector<Camera> all = Pinholes();
     for (std::size_t c = 0; c < count; ++c) {
@@ -31,7 +36,7 @@ struct MendedTake {
       for (std::size_t k = 0; k < kMendedFrames; ++k) {
         const double t = static_cast<double>(k) / 30;
         people[c][k] = {Seen(all[c], Walker(0.7, 0.2, t + 0.4), sigma_px, dice),
-                        Seen(all[c], Walker(-0.5, 0, t), sigma_px, dice)};
+                        Seen(all[c], figure(-0.5, 0, t), sigma_px, dice)};
         person.seen[c][k] = people[c][k][1];
       }
     }
@@ -139,6 +144,25 @@ TEST(MendPerson, ToesTellWhereAllCamerasExchangedThroughout) {
     EXPECT_EQ(mend.frames, FramesFrom(0, kMendedFrames));
   }
   EXPECT_EQ(take.Wrong(), 0u);
+}
+
+TEST(MendPerson, ToesOfAKneelerPointBackwards) {
+  // The shanks lie on the floor. The feet are stretched to 0.2 or 0.7 radians from the shanks' direction.
+  for (const double foot : {0.2, 0.7}) {
+    const auto kneeler = [foot](double x, double z, double seconds) {
+      LandmarkPositions marks = Walker(x, z, seconds);
+      for (const auto& [knee, ankle, toe] :
+           {std::array{Landmark::kLeftKnee, Landmark::kLeftAnkle, Landmark::kLeftBigToe},
+            {Landmark::kRightKnee, Landmark::kRightAnkle, Landmark::kRightBigToe}}) {
+        marks[Index(ankle)] = *marks[Index(knee)] - glm::dvec3(0, 0, 0.42);
+        marks[Index(toe)] = *marks[Index(ankle)] - 0.18 * glm::dvec3(0, std::sin(foot), std::cos(foot));
+      }
+      return marks;
+    };
+    MendedTake take(3, 1, kneeler);
+    EXPECT_THAT(take.Run(), IsEmpty()) << foot;
+    EXPECT_EQ(take.Wrong(), 0u) << foot;
+  }
 }
 
 TEST(MendPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
