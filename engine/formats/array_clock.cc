@@ -13,7 +13,8 @@ Result<ArrayClock> ClockOfArrays(const Npz& arrays, std::size_t frames, const st
   for (const char* name : {"times_s", "time_s", "timestamps_s", "times", "timestamps", "time", "timestamp", "t"}) {
     const NumberArray* times = arrays.Find(name);
     if (times == nullptr) continue;
-    if (times->values.size() == frames && frames > 1) {
+    const bool may_be_other = std::string_view(name) == "t" && frames == 1;  // a single number may mean anything
+    if (times->values.size() == frames && !may_be_other) {
       clock.time_name = name;
       clock.times = times->values;
       return clock;

@@ -97,7 +97,12 @@ Result<MarkerMotion> LayOnClock(MarkerRows rows, const std::string& file) {
   ASSIGN_OR_RETURN(const auto grid, GridOfRows(rows.times_s, rows.lines, told, markers.names.size(), file));
   if (told) AddRemark(markers.remark, DescribeOtherRate(rows, *told, grid));
   if (rows.has_clock && !MeanStepOfBursts(rows.times_s)) AddRemark(markers.remark, DescribeOtherNumbers(rows));
-  if (!grid) return std::move(markers);
+  if (!grid) {
+    // A single row has no rate, but its time may place it within another motion.
+    if (rows.has_clock && rows.times_s.size() == 1 && !std::isnan(rows.times_s.front()))
+      markers.start_s = scale.first * scale.seconds + rows.times_s.front();
+    return std::move(markers);
+  }
   markers.rate_hz = grid->rate_hz;
   if (!rows.has_clock && rows.first_number > 1) {
     AddRemark(markers.remark,

@@ -17,13 +17,13 @@ namespace {
 constexpr TimeUnit kSeconds{}, kHundredths = {1e-2, "hundredths of a second"};
 
 /// Returns the unit in which a step between rows agrees with the stated rate; nullopt if there is none. A step of 1 may
-/// also be a frame.
-std::optional<TimeUnit> UnitByRate(double step, double rate_hz) {
+/// also be a frame, if `are_whole`: all times are whole numbers.
+std::optional<TimeUnit> UnitByRate(double step, double rate_hz, bool are_whole) {
   constexpr double kTolerance = 0.1;
   std::vector<TimeUnit> units = {kSeconds};
   units.insert(units.end(), std::begin(kSmallUnits), std::end(kSmallUnits));
   units.push_back(kHundredths);
-  if (step == 1) units.push_back({1 / rate_hz, "frame numbers"});
+  if (step == 1 && are_whole) units.push_back({1 / rate_hz, "frame numbers"});
   const auto fits = [&](const TimeUnit& unit) { return std::abs(step * unit.seconds * rate_hz - 1) < kTolerance; };
   const auto found = std::ranges::find_if(units, fits);
   return found == units.end() ? std::nullopt : std::optional(*found);
@@ -84,7 +84,9 @@ TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told) {
   }
   const std::size_t count = steps.size();
   const double step = count == 0 ? 0 : Median(std::move(steps));
-  const auto by_rate = told.rate_hz ? UnitByRate(step, *told.rate_hz) : std::nullopt;
+  const bool are_whole =
+      std::ranges::all_of(times, [](double time) { return std::isnan(time) || time == std::floor(time); });
+  const auto by_rate = told.rate_hz ? UnitByRate(step, *told.rate_hz, are_whole) : std::nullopt;
   if (by_rate) {
     scale.seconds = by_rate->seconds;
     if (by_rate->seconds != kSeconds.seconds) {

@@ -346,6 +346,28 @@ std::string MotiveTake(bool has_times) {
   return text;
 }
 
+TEST(RowClock, KeepsTheTimeOfASingleRow) {
+  for (const bool has_clock : {true, false}) {
+    MarkerRows rows{.markers = {.names = {"A"}, .frames = {{glm::dvec3(1, 2, 3)}}},
+                    .times_s = {3.3333},
+                    .lines = {7},
+                    .has_clock = has_clock};
+    ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
+    EXPECT_EQ(laid->start_s, has_clock ? std::optional(3.3333) : std::nullopt);
+  }
+}
+
+TEST(RowClock, TimesThatAreNotWholeAreNoFrameNumbers) {
+  MarkerRows rows{.markers = {.names = {"A"}, .frames = {}, .rate_hz = 30},
+                  .times_s = {0, 1, 2, 2.5, 5, 5.0333, 6.6667},
+                  .lines = {},
+                  .rate_name = "DataRate"};
+  for (const double time : rows.times_s) rows.markers.frames.push_back({glm::dvec3(time, 0, 0)});
+  ASSERT_OK(laid, LayOnClock(std::move(rows), "a"));
+  EXPECT_THAT(laid->remark, ::testing::Not(HasSubstr("frame numbers")));
+  EXPECT_NEAR(static_cast<double>(laid->frames.size() - 1) / laid->rate_hz, 6.6667, 1 / laid->rate_hz) << laid->remark;
+}
+
 TEST(RowClock, OfMotiveIsItsColumnTimeElseItsFrameNumbers) {
   for (const bool has_times : {true, false}) {
     ASSERT_OK(take, ReadMotiveCsv(MotiveTake(has_times), "a.csv"));

@@ -89,6 +89,17 @@ TEST(ArrayTimes, PlaceTheFramesWithOrWithoutARate) {
                           "fps of 30 Hz"));
 }
 
+TEST(ArrayTimes, PlaceASingleFrameWithOrWithoutARate) {
+  for (const bool has_rate : {true, false}) {
+    Npz npz = ArraysAt({3.25});
+    npz.arrays["times"] = List({3.25});
+    if (has_rate) npz.arrays["rate_hz"] = {.shape = {}, .values = {30}};
+    ASSERT_OK(motion, ReadRawNpz(npz, "a.npz"));
+    EXPECT_EQ(motion->start_s, 3.25);
+    EXPECT_EQ(motion->FrameCount(), 1u);
+  }
+}
+
 TEST(ArrayTimes, ThatContradictTheRateAreUsedAndSaid) {
   Npz npz = ArraysAt(Times(false));
   npz.arrays["times"] = List(Times(false));
