@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/base/order_statistics.h"
@@ -19,6 +20,8 @@ void FindJumps(const GroundView& ground, std::vector<MotionFault>& faults) {
   }
 }
 
+constexpr double kSameLevel_m = 0.025;  // levels count as equal up to this difference
+
 /// Frames that share a vertical displacement.
 struct Level {
   FrameRange frames;
@@ -32,7 +35,7 @@ struct Level {
 /// - The clip begins at this level.
 /// - The clip ends at this level.
 double ReferenceOffset(const GroundView& ground, const std::vector<Level>& levels) {
-  constexpr double kSame = 0.025, kLowest = -0.01, kHighest = 0.1;  // metres; levels count as equal up to kSame
+  constexpr double kLowest = -0.01, kHighest = 0.1;  // metres
   constexpr double kPerMetre = 2, kForTime = 0.04, kForEnd = 0.03;
   const double rest = ground.LowestRest() - ground.floor();
   std::optional<double> best;
@@ -40,13 +43,13 @@ double ReferenceOffset(const GroundView& ground, const std::vector<Level>& level
   for (const Level& candidate : levels) {
     double time = 0;
     for (const Level& level : levels) {
-      if (std::abs(level.offset - candidate.offset) < kSame) time += level.frames.last - level.frames.first + 1;
+      if (std::abs(level.offset - candidate.offset) < kSameLevel_m) time += level.frames.last - level.frames.first + 1;
     }
     const double height = rest + candidate.offset;
     const double beyond = std::max({0.0, kLowest - height, height - kHighest});
     double cost = kForTime * (1 - time / ground.frames()) + (ground.is_floor_found() ? 0 : kPerMetre * beyond);
     for (const Level* end : {&levels.front(), &levels.back()}) {
-      if (std::abs(end->offset - candidate.offset) >= kSame) cost += kForEnd;
+      if (std::abs(end->offset - candidate.offset) >= kSameLevel_m) cost += kForEnd;
     }
     if (best && cost >= *best) continue;
     best = cost;
@@ -62,8 +65,19 @@ struct Told {
   double reference = 0;
 };
 
+/// Returns the median height of the lowest joint at a level.
+double LowestAt(const GroundView& ground, const std::vector<Level>& levels, double offset) {
+  std::vector<double> lowest;
+  for (const Level& level : levels) {
+    if (std::abs(level.offset - offset) >= kSameLevel_m) continue;
+    lowest.insert(lowest.end(), ground.lowest().begin() + level.frames.first,
+                  ground.lowest().begin() + level.frames.last + 1);
+  }
+  return Median(std::move(lowest));
+}
+
 Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kStep = 0.02, kMinSeconds = 0.1;
+  constexpr double kStep = 0.02, kMinSeconds = 0.1, kMinSeen = 0.5;
   // Split the motion at its vertical displacements.
   std::vector<Level> levels = {{{0, ground.frames() - 1}, 0}};
   double offset = 0;
@@ -78,6 +92,9 @@ Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& fau
   for (const Level& level : levels) {
     const double height = level.offset - told.reference;
     if (std::abs(height) <= fault_limits::kLevel_m || ground.Seconds(level.frames) <= kMinSeconds) continue;
+    // The lowest joint must show it, too: sums of many small displacements may only be errors.
+    const double seen = LowestAt(ground, levels, level.offset) - LowestAt(ground, levels, told.reference);
+    if (seen * std::copysign(1.0, height) < kMinSeen * std::abs(height)) continue;
     const FaultKind kind = height > 0 ? FaultKind::kFloats : FaultKind::kSinks;
     faults.push_back(ground.FaultOf(kind, level.frames, std::abs(height)));
     for (int f = level.frames.first; f <= level.frames.last; ++f) told.frames[f] = true;
