@@ -71,6 +71,18 @@ TEST(MotionFaults, OfABodyThatSinksHaveItsDepthAndTime) {
   }
 }
 
+TEST(MotionFaults, OfStepsThatSinkBackAreNoLevels) {
+  // The body rises by 4 cm at once and sinks back within half a second, again and again.
+  BodyMotion saw = Swaying(30);
+  for (std::size_t f = 0; f < saw.poses.size(); ++f) {
+    MoveAll(saw.poses[f], {0, 0.04 * (1 - static_cast<double>(f % 15) / 15), 0});
+  }
+  for (const MotionFault& fault : FindMotionFaults(saw).faults) {
+    const bool is_level = fault.kind == FaultKind::kSinks || fault.kind == FaultKind::kFloats;
+    EXPECT_FALSE(is_level && fault.size > 0.05) << FaultSentences({fault}).front();
+  }
+}
+
 TEST(MotionFaults, OfABodyThatFloatsAreMeasuredFromHeightZero) {
   for (const BodyMotion& motion : {Swaying(30), Hopping(60)}) {
     const MotionFault floats = OneFault(Lifted(motion, 1.5, 3.5, 0.06), FaultKind::kFloats);
