@@ -68,7 +68,9 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
                                                 std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
       sides.legs.Add(pose[kLeftHip] - pose[kRightHip], pose[hip], pose[knee], pose[ankle], pose[toe]);
       sides.knees += glm::dot(forward, BendOffset(pose, hip, knee, ankle));
-      sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
+      // The front of the thigh, because the trunk may bend far backwards.
+      const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[hip] - pose[knee]);
+      sides.knee_bends.push_back(Bend(front, pose[hip], pose[knee], pose[ankle]));
     }
     for (const auto& [shoulder, elbow, wrist] :
          {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
