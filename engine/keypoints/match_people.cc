@@ -36,12 +36,16 @@ class Follower {
   std::vector<PersonTrack> Follow() {
     std::vector<PersonTrack> tracks;
     for (std::size_t frame = 0; frame < people_.size(); ++frame) {
-      // Extend each track by its nearest candidate, unless another candidate is nearly as near.
+      // Extend each track by its nearest candidate, unless another candidate is nearly as near; then those tracks whose
+      // person was absent for longer, by the candidates that are left.
       std::vector<bool> taken(people_[frame].size()), extended(tracks.size());
-      for (const auto& [step, track, person] : Candidates(tracks, frame)) {
-        if (taken[person] || extended[track]) continue;
-        tracks[track].entries[frame] = person;
-        taken[person] = extended[track] = true;
+      const auto last = static_cast<std::size_t>(options_.max_absence);
+      for (const auto& [from, to] : {std::pair(std::size_t{0}, last), {last + 1, std::max(last, MaxReturn())}}) {
+        for (const auto& [step, track, person] : Candidates(tracks, frame, from, to, taken)) {
+          if (taken[person] || extended[track]) continue;
+          tracks[track].entries[frame] = person;
+          taken[person] = extended[track] = true;
+        }
       }
       // Every person who continues no track begins a new one.
       for (std::size_t person = 0; person < taken.size(); ++person) {
@@ -54,15 +58,19 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// Returns the possible extensions of tracks, by ascending step. Extensions with a competing candidate that is nearly
-  /// as near are left out.
-  std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
+  std::size_t MaxReturn() const { return static_cast<std::size_t>(options_.max_return); }
+
+  /// Returns the possible extensions of the tracks that were last seen `from` to `to` frames ago, by people who are not
+  /// `taken`, by ascending step. Extensions with a competing candidate that is nearly as near are left out.
+  std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame, std::size_t from,
+                                    std::size_t to, const std::vector<bool>& taken) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
       const std::size_t last = tracks[t].last();
-      if (frame - last > static_cast<std::size_t>(options_.max_absence)) continue;
+      if (frame - last < from || frame - last > to) continue;
       const SeenPerson& before = people_[last][tracks[t].entries.rbegin()->second];
       for (std::size_t p = 0; p < people_[frame].size(); ++p) {
+        if (taken[p]) continue;
         const double step = StepBetween(before, people_[frame][p], options_.min_confidence);
         if (step < options_.max_step) all.emplace_back(step, t, p);
       }

@@ -15,9 +15,11 @@ struct FollowOptions {
   /// The largest distance that a person moves in the picture from one frame to the next, as a share of the person's
   /// height in the picture. A film at 30 Hz of somebody who runs across a small picture may need a larger value.
   double max_step = 0.25;
-  /// A person who was absent for at most this number of frames continues the same track. Somebody who returns later
-  /// begins a new track until other cameras identify the person.
+  /// A person who was absent for at most this number of frames continues the same track.
   int max_absence = 15;
+  /// A person who was absent for at most this number of frames and returns to the same place also does, unless another
+  /// track continues there. Somebody who returns later begins a new track until other cameras identify the person.
+  int max_return = 90;
   double min_confidence = 0.1;  ///< keypoints of lower confidence are ignored
 };
 

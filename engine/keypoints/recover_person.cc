@@ -144,9 +144,11 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
 }
 
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
-  constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // share of the picture's longer side; seconds
+  constexpr double kOutlierShare = 0.03;  // of the picture's longer side
+  constexpr double kMaxAbsence_s = 0.5, kMaxReturn_s = 3;
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
   options.match.follow.max_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
+  options.match.follow.max_return = static_cast<int>(std::lround(kMaxReturn_s * rate_hz));
   options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;
   return options;
 }

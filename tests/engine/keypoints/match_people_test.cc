@@ -40,13 +40,27 @@ TEST(FollowPeople, TakesNoLongerStepThanAShareOfTheHeight) {
 }
 
 TEST(FollowPeople, ForgetsWhoWasAwayTooLong) {
-  for (const std::size_t away : {15u, 16u}) {
-    SeenPeople people(away + 1);
-    people[0] = {Upright(0)};
-    people[away] = {Upright(1)};
-    const std::string last = std::to_string(away) + ":0";
-    EXPECT_EQ(TracksOf(people), away == 15 ? " 0:0 " + last : " 0:0 | " + last);
+  for (const std::size_t away : {15u, 16u, 90u, 91u}) {
+    for (const int max_return : {0, 90}) {
+      SeenPeople people(away + 1);
+      people[0] = {Upright(0)};
+      people[away] = {Upright(1)};
+      const std::string last = std::to_string(away) + ":0";
+      const bool is_same = away == 15 || (away <= 90 && max_return == 90);
+      EXPECT_EQ(TracksOf(people, {.max_return = max_return}), is_same ? " 0:0 " + last : " 0:0 | " + last);
+    }
   }
+}
+
+TEST(FollowPeople, SomebodyWhoWasAwayForLongerIsNoRival) {
+  // The first person was at 100 until frame 0. The second walks there, and is nearer to that place than to the last
+  // one.
+  SeenPeople people(23);
+  people[0] = {Upright(100)};
+  for (std::size_t f = 1; f < people.size(); ++f) people[f] = {Upright(300 - 10 * static_cast<double>(f))};
+  std::string second;
+  for (std::size_t f = 1; f < people.size(); ++f) second += " " + std::to_string(f) + ":0";
+  EXPECT_EQ(TracksOf(people), " 0:0 |" + second);
 }
 
 TEST(FollowPeople, BeginsAnewWhereTwoAreAsNear) {

@@ -279,6 +279,7 @@ TEST(UsualRecovery, FollowsTheRateAndThePictures) {
   const RecoverPersonOptions options = UsualRecovery(60, 1920);
   EXPECT_EQ(options.rate_hz, 60);
   EXPECT_EQ(options.match.follow.max_absence, 30) << "half a second";
+  EXPECT_EQ(options.match.follow.max_return, 180) << "three seconds";
   EXPECT_DOUBLE_EQ(options.triangulate.robust.outlier_px, 57.6) << "3 % of the longer side";
   EXPECT_EQ(UsualRecovery(1, 640).match.follow.max_absence, 1);
 }
