@@ -138,6 +138,10 @@ Json FactsOf(const GateReport& report, const RunData& run) {
 }
 
 Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
+  // Remove an earlier verdict first, so that it is not taken for the one of a gate that fails.
+  const FilePath folder = Inside(options.target) / "report";
+  RETURN_IF_ERROR(PlainFilesBelow(folder));  // refuse links, which could lead out of the folder
+  for (const char* file : {kGateMarkdown, kGateJunit}) RETURN_IF_ERROR(RemoveFile(folder / file));
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (std::error_code none; !fs::exists(options.baseline, none)) {
@@ -147,8 +151,6 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   }
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
   report.run_folder = options.target;
-  const FilePath folder = Inside(options.target) / "report";
-  RETURN_IF_ERROR(PlainFilesBelow(folder));  // refuse links, which could lead out of the folder
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {

@@ -224,7 +224,8 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
 int WorldsThatFail(int compared, const TailRule& rule) {
   if (rule.worlds == 0) return 0;
   constexpr double kRounding = 1e-9;  // tolerance for rounding errors: 0.02 × 150 must give 3
-  return std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
+  const int needed = std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
+  return std::min(needed, compared);  // if all of a few worlds became far worse, that is a regression
 }
 
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule) {

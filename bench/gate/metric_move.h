@@ -104,7 +104,7 @@ using TailRules = std::map<std::string, TailRule>;
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
 /// Returns the smallest number of far worse worlds, among `compared` worlds, that counts as a regression; 0 if no
-/// number does.
+/// number does. It is at most `compared`.
 int WorldsThatFail(int compared, const TailRule& rule);
 bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 

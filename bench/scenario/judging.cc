@@ -220,7 +220,8 @@ FieldTable<TailRule> TailFields() {
                        "A world is far worse if its value is worse by more than this number of practical thresholds."),
            Key::Number(
                "worlds", &TailRule::worlds, kWorlds,
-               "A comparison with at least this number of far worse worlds is a regression. 0 turns this rule off."),
+               "A comparison with at least this number of far worse worlds (or all worlds, if there are fewer) is a "
+               "regression. 0 turns this rule off."),
            Key::Number("share", &TailRule::share, {0, 1},
                        "The number of far worse worlds must also be at least this share of the compared worlds. Among "
                        "many worlds, rounding alone makes some worlds far worse."),

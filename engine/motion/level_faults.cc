@@ -77,7 +77,7 @@ double LowestAt(const GroundView& ground, const std::vector<Level>& levels, doub
 }
 
 Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& faults) {
-  constexpr double kStep = 0.02, kMinSeconds = 0.1, kMinSeen = 0.5;
+  constexpr double kStep = 0.02, kMinSeconds = 0.1, kMinShown = 0.5;
   // Split the motion at its vertical displacements.
   std::vector<Level> levels = {{{0, ground.frames() - 1}, 0}};
   double offset = 0;
@@ -94,7 +94,7 @@ Told FindDisplacedLevels(const GroundView& ground, std::vector<MotionFault>& fau
     if (std::abs(height) <= fault_limits::kLevel_m || ground.Seconds(level.frames) <= kMinSeconds) continue;
     // The lowest joint must show it, too: sums of many small displacements may only be errors.
     const double seen = LowestAt(ground, levels, level.offset) - LowestAt(ground, levels, told.reference);
-    if (seen * std::copysign(1.0, height) < kMinSeen * std::abs(height)) continue;
+    if (seen * std::copysign(1.0, height) < kMinShown * std::abs(height)) continue;
     const FaultKind kind = height > 0 ? FaultKind::kFloats : FaultKind::kSinks;
     faults.push_back(ground.FaultOf(kind, level.frames, std::abs(height)));
     for (int f = level.frames.first; f <= level.frames.last; ++f) told.frames[f] = true;

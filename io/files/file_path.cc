@@ -150,6 +150,13 @@ bool Exists(const FilePath& path) {
   return ::fstatat(walk.end.number(), path.below().filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0;
 }
 
+Result<void> RemoveFile(const FilePath& path) {
+  if (!Exists(path)) return {};
+  ASSIGN_OR_RETURN(const auto spot, FileSpot::Find(path, /*makes_folders=*/false));
+  if (::unlinkat(spot.folder(), spot.name().c_str(), 0) == 0 || errno == ENOENT) return {};
+  return CannotWrite(path.string(), "cannot remove this file", errno);
+}
+
 Result<void> MakeFolder(const FilePath& folder) {
   RETURN_IF_ERROR(MakeGiven(folder.given()));
   const Walk walk = WalkDown(folder.given(), folder.below(), /*makes=*/true);

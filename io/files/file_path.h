@@ -71,6 +71,10 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode = 0666)
 /// refuses such a link.
 bool Exists(const FilePath& path);
 
+/// Removes a file, or a link itself; does nothing if the path does not exist. Fails as FileSpot::Find does, and, with
+/// the system's reason, if the file cannot be removed.
+Result<void> RemoveFile(const FilePath& path);
+
 /// Creates a folder and all missing folders above it. Fails as FileSpot::Find does.
 Result<void> MakeFolder(const FilePath& folder);
 

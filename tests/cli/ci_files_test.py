@@ -114,6 +114,13 @@ class CiFiles(EtudeCase):
         self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
         self.assertIn("72 same", summary)  # the other clips are unchanged
 
+        # A solver that does not start leaves nothing of the earlier verdicts.
+        solver.write_text("raise SystemExit(3)\n")
+        failed, summary, verdict = self.run_action()
+        self.assertNotEqual(verdict, "regression")
+        self.assertIn(f"## Etude gate: {verdict}", summary)
+        self.assertFalse((self.repository / "out/etude/report/gate.xml").exists())
+
     @heavy
     def test_what_is_missing_is_told_in_the_summary(self):
         summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",

@@ -76,6 +76,9 @@ class Gate(EtudeCase):
         failures = [case.get("name") for case in suites.iter("testcase") if case.find("failure") is not None]
         self.assertEqual(len(failures), int(suites.get("failures")))
         self.assertTrue(failures and all(", fixed: " in name for name in failures), failures)
+        # A gate that fails leaves no earlier verdict behind.
+        self.ends(2, "gate", self.now, "--baseline", self.folder / "missing.json")
+        self.assertEqual([path.name for path in (self.now / "report").iterdir()], [])
 
     def test_one_digit_of_one_cell_fails_the_exact_rule_only(self):
         for rule, code in ("exact", 1), ("threshold", 0):

@@ -110,7 +110,8 @@ TEST(Tail, IsNotJudgedByARuleThatIsOff) {
 
 TEST(Tail, MustBeAShareOfManyWorldsToo) {
   const TailRule rule{.times = 20, .worlds = 3, .share = 0.02, .lost = 0};
-  for (const auto& [compared, needed] : {std::pair{5, 3}, {30, 3}, {150, 3}, {151, 4}, {1000, 20}}) {
+  for (const auto& [compared, needed] :
+       {std::pair{1, 1}, {2, 2}, {3, 3}, {5, 3}, {30, 3}, {150, 3}, {151, 4}, {1000, 20}}) {
     EXPECT_EQ(WorldsThatFail(compared, rule), needed);
     const auto few = static_cast<std::size_t>(needed) - 1;
     EXPECT_FALSE(IsTailRegression(std::vector<TailWorld>(few), compared, rule));
