@@ -70,11 +70,11 @@ void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, for every command that runs external methods.
 void AddOutsideRules(CLI::App& command, OutsideRules& rules);
 
-/// Returns a check that an option's text is one of `names`. The help lists all names; the complaint about another text
-/// suggests the nearest name.
+/// Returns a check that an option's text is one of `names`. The help lists all names; the error message about another
+/// text suggests the nearest name.
 CLI::Validator OneOf(const std::vector<std::string>& names);
-/// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else a
-/// complaint. (CLI::Range would accept NaN.) `kind` names the quantity in complaints: "rate in Hz".
+/// Returns a function that checks an option's text: that function returns "" for a number from `low` to `high`, else an
+/// error message. (CLI::Range would accept NaN.) `kind` names the quantity in error messages: "rate in Hz".
 std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

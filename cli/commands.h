@@ -22,7 +22,7 @@ constexpr int kUnusableInput = 2;
 constexpr int kIncompleteRun = 3;
 constexpr int kInterrupted = 130;
 
-/// Prints a complaint in the standard form. Returns kUnusableInput, or kIncompleteRun if the error's cause is this
+/// Prints an error message in the standard form. Returns kUnusableInput, or kIncompleteRun if the error's cause is this
 /// machine.
 int Complain(const Error& error);
 /// Returns a command's exit code. For an error, prints it as Complain does and returns Complain's code.

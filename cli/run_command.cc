@@ -99,7 +99,7 @@ int MergeCommand(const MergeOptions& given) {
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   // In the first half of its work, Merge only reads the shards and finds shards that do not belong together. The bar of
-  // this half appears late, so that complaints are not printed beside it.
+  // this half appears late, so that error messages are not printed beside it.
   ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();

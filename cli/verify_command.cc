@@ -41,7 +41,7 @@ struct VerifyCommandOptions {
 /// Parses --sample; returns nullopt for "all".
 std::optional<std::size_t> ReadSample(const std::string& text) { return ParseNumber<std::size_t>(text); }
 
-/// Returns "" for a valid value of --sample, else the complaint.
+/// Returns "" for a valid value of --sample, else the error message.
 std::string CheckSample(const std::string& text) {
   if (text == kWholeSample) return "";
   if (const auto number = ParseNumber<std::size_t>(text); number && *number <= kMaxSample) return "";

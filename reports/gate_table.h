@@ -62,7 +62,7 @@ struct TailLine {
 std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
                                 std::size_t most);
 
-/// What far worse worlds mean for the gate.
+/// The effect of far worse worlds on the gate's verdict.
 enum class TailGroup {
   kFailing,    ///< their metric fails the gate
   kTooFew,     ///< the tail rule judged them: too few to fail

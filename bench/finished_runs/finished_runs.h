@@ -33,7 +33,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 /// Runs all cells of the rehearsal under `seed`.
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
-/// What a loaded run holds in memory.
+/// The part of a run that is held in memory.
 enum class Held {
   kAll,      ///< everything that LoadRun loads
   kOutline,  ///< what LoadRunRowByRow loads

@@ -54,7 +54,7 @@ struct SnapshotCells {
   std::string method;
   std::string statuses;                 ///< one letter per trial (StatusLetter)
   std::vector<SnapshotValues> metrics;  ///< values of each metric, in the order of SnapshotScenario::metrics
-  std::vector<JudgedOn> judged = {};    ///< what each trial's cell was judged on; empty if no cell says it
+  std::vector<JudgedOn> judged = {};    ///< what each trial's cell was judged on; empty if no cell states it
 };
 
 struct SnapshotScenario {

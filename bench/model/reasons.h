@@ -9,13 +9,13 @@
 
 namespace etude {
 
-/// How the reason of a cell begins if its program answered `no_answer`; such a cell has the status unsolved.
+/// The beginning of a cell's reason if its program answered `no_answer`; such a cell has the status unsolved.
 inline constexpr std::string_view kGaveNoAnswer = "gave no answer: ";
 
-/// How a doubt about the truth begins, which all methods of a world share.
+/// The beginning of a doubt about the truth. All methods of a world share such a doubt.
 inline constexpr std::string_view kDoubtedTruth = "the truth: ";
 
-/// Returns the notes on a file that are no doubts.
+/// Returns the notes on a file that are not doubts.
 std::vector<std::string> NotesWithoutDoubts(const std::vector<std::string>& notes,
                                             const std::vector<std::string>& doubts);
 /// Returns the end of a reason that states doubts about a file: " · doubtful: WHO DOUBT" for each; "" without doubts.

@@ -73,8 +73,8 @@ struct Recording {
   std::string extras_json;
 };
 
-/// What a cell's values were measured on. Two methods are compared by a metric only if they were judged alike
-/// (bench/statistics/judged_alike.h).
+/// The joints, rates and shares on which a cell's values were measured. Two methods are compared by a metric only if
+/// they were judged alike (bench/statistics/judged_alike.h).
 struct JudgedOn {
   std::vector<std::string> parts;  ///< what was judged, e.g. the names of joints; empty: the task does not say
   double rate_hz = 0;              ///< the rate of the answer's frames; 0: the task does not say
@@ -88,11 +88,11 @@ struct JudgedOn {
   bool operator==(const JudgedOn&) const = default;
 };
 
-/// How the part of JudgedOn begins that names the root.
+/// The beginning of the text of JudgedOn that names the root.
 inline constexpr std::string_view kRootPart = "root ";
 
-/// The mean difference of two methods' judged shares from which on their values are not compared: one frame in a
-/// hundred. Page, `compare` and `gate` use it.
+/// If the judged shares of two methods differ by at least this much on average, their values are not compared: one
+/// frame in a hundred. The report, `etude compare` and `etude gate` use this limit.
 inline constexpr double kMaxShareDifference = 0.01;
 
 /// The result of one method in one world.

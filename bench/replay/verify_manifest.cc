@@ -116,7 +116,8 @@ Result<Verified> VerifyManifest(const FilePath& folder, const FinishedRun& run, 
     const auto differences = CompareManifests(then, now);
     verified.differences = {differences.empty() ? "differs from the text that a run writes" : InWords(differences)};
   }
-  // The seed of the suite is the seed of all scenarios (--seed), or the default beside the scenarios' own seeds.
+  // The seed of the suite is the seed of all scenarios (--seed), or the default for scenarios without a seed of their
+  // own.
   const auto has_its_seed = [&](const ScenarioSetup& one) { return one.seed.WithoutKey() == suite.seed.WithoutKey(); };
   if (suite.seed != Seed(1) && !std::ranges::all_of(suite.scenarios, has_its_seed))
     verified.differences.push_back("seed: it differs from the seeds of the scenarios");

@@ -70,8 +70,8 @@ struct MethodEntry {
   std::vector<std::string> files = {};  ///< files that a sandbox shows to the program; empty = the program's own folder
   std::string description = {};         ///< a sentence about the method, for readers of the results; "" = not described
 
-  /// Returns true if the task runs stages of the method: all stages of a built-in method, or the stages beside the seat
-  /// of a program.
+  /// Returns true if the task runs stages of the method: all stages of a built-in method, or the stages other than the
+  /// seat of a program.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 

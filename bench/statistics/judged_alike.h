@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// What one metric of two methods (or of one method in two runs) was measured on in one world (JudgedOn).
+/// The data of one world (JudgedOn) on which one metric of two methods, or of one method in two runs, was measured.
 struct JudgedPair {
   struct Side {
     const std::vector<std::string>* parts = nullptr;

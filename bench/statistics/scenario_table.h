@@ -42,7 +42,7 @@ class MethodColumns {
   std::string name_;
   std::vector<std::optional<Status>> statuses_;  ///< statuses by trial
   CyclicLookup<std::vector<double>> values_;     ///< values by metric and trial; NaN = none
-  // What the cells were judged on (JudgedOn). The columns are empty if no cell says it.
+  // JudgedOn of the cells. The columns are empty if no cell has it.
   std::vector<std::vector<std::string>> all_parts_;  ///< each list of parts once
   std::vector<std::size_t> parts_;                   ///< by trial, 1 + an index in all_parts_; 0 = the cell has none
   std::vector<double> rates_, compared_rates_;

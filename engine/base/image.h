@@ -46,8 +46,8 @@ using LabelImage = Image<std::uint32_t>;
 /// A picture that is mapped to a surface by coordinates (u, v): (0, 0) is its upper left corner, (1, 1) the lower right
 /// one.
 struct Texture {
-  /// What a texture shows at coordinates outside 0…1: the picture again, its mirror image, or the nearest pixel of its
-  /// edge.
+  /// The continuation of a texture at coordinates outside 0…1: the picture again, its mirror image, or the nearest
+  /// pixel of its edge.
   enum class Beyond { kRepeats, kMirrors, kStays };
 
   ColourImage picture;

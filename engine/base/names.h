@@ -11,19 +11,20 @@ namespace etude {
 /// string if none is close enough to be a likely typing error.
 std::string NearestName(std::string_view name, std::span<const std::string> known);
 
-/// Returns the complaint about an unknown name:
-/// "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, ccd-hinges".
+/// Returns the error message about an unknown name: "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd,
+/// ccd-hinges".
 std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known);
 
 /// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
-/// Returns a person's name as it is compared, because people write it in different ways: without spaces, ASCII letters
-/// in lower case, and Latin letters with a mark as one character, also where they are two (NFD).
+/// Returns a person's name in the form in which names are compared, because people write one name in different ways:
+/// without spaces, with ASCII letters in lower case, and with each accented Latin letter as one character, even if the
+/// text has it as two (NFD).
 std::string ComparedName(std::string_view name);
 
-/// Formats a word for complaints: quoted, shortened, unprintable characters as `?`; an empty text becomes "the end of
-/// the line or file".
+/// Formats a word for error messages: quoted, shortened, unprintable characters as `?`; an empty text becomes "the end
+/// of the line or file".
 std::string Quote(std::string_view text);
 
 }  // namespace etude

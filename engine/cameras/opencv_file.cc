@@ -36,8 +36,8 @@ bool IsRotation(const glm::dmat3& R) {
   return off < kTolerance;
 }
 
-/// Returns the rotation nearest to `R`, by Newton's iteration, if `R` is a rotation but for rounding of its numbers.
-/// Otherwise returns `R` unchanged.
+/// Returns the rotation nearest to `R`, by Newton's iteration, if `R` differs from a rotation only by the rounding of
+/// its numbers. Otherwise returns `R` unchanged.
 glm::dmat3 Orthonormal(const glm::dmat3& R) {
   const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
   constexpr double kRounded = 3e-3;  // EasyMocap wrote three decimals

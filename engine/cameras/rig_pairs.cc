@@ -35,8 +35,8 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-// All these files are read as if they had Z up (kYUpOfZUp). This is not so for OpenCV's stereo pair and COLMAP; their
-// up axis must be found separately (PlacementOptions::up).
+// All these files are read as if they had Z up (kYUpOfZUp). This is false for OpenCV's stereo pair and COLMAP; their up
+// axis must be found separately (PlacementOptions::up).
 
 /// Makes the camera in our world; the picture size is 0 × 0 if the file states none.
 Result<NamedCamera> CameraIn(const std::string& name, OpenCvParameters p, const glm::dmat3& R_WF, const Place& place) {

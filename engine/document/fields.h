@@ -17,9 +17,9 @@ struct Range {
   double highest = std::numeric_limits<double>::infinity();
 };
 
-/// Reads the keys of one mapping by name and type. It keeps the first complaint and continues with defaults, so that
-/// reading code is a plain list of keys. At the end, `Finish` returns this complaint, or a complaint about a key that
-/// was not read (with the nearest known key).
+/// Reads the keys of one mapping by name and type. It keeps the first error and continues with defaults, so that
+/// reading code is a plain list of keys. At the end, `Finish` returns this error, or an error about a key that was not
+/// read (with the nearest known key).
 ///
 ///     Fields fields(node, "an ik scenario");
 ///     options.trials = fields.Integer("trials", 100, {1, 100000});
@@ -27,7 +27,7 @@ struct Range {
 ///     RETURN_IF_ERROR(fields.Finish());
 class Fields {
  public:
-  /// `what` names the mapping in complaints, e.g. "a method of task ik". `node` must outlive this object.
+  /// `what` names the mapping in error messages, e.g. "a method of task ik". `node` must outlive this object.
   Fields(const Node& node, std::string what);
 
   /// Each of these functions returns the value of `key`. If the key is absent or its value is refused, the function
@@ -50,10 +50,10 @@ class Fields {
   const Node* Raw(std::string_view key);
   const Node& node() const { return node_; }
 
-  /// Records a complaint of the caller at `place`; only the first complaint is kept.
+  /// Records an error of the caller at `place`; only the first error is kept.
   void Complain(Place place, std::string message);
   bool ok() const { return !error_.has_value(); }
-  /// Returns the first complaint, else a complaint about the first unknown key, else success.
+  /// Returns the first error; without one, an error about the first unknown key; else success.
   Result<void> Finish();
 
  private:

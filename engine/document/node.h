@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// One value of a YAML document and its position, so that every complaint can refer to it.
+/// One value of a YAML document and its position, so that every error message can refer to it.
 struct Node {
   enum class Kind { kNull, kScalar, kSequence, kMapping };
   struct Entry;
@@ -29,15 +29,15 @@ struct Node::Entry {
   Node value;
 };
 
-/// Parses one YAML document. `file` is its name in complaints. Refuses syntax errors, duplicate keys, aliases, a second
-/// document, more than `max_bytes` bytes (by default 1 MiB; documents that hold data need more), more than 10,000
-/// values and nesting deeper than 32 levels.
+/// Parses one YAML document. `file` is its name in error messages. Refuses syntax errors, duplicate keys, aliases, a
+/// second document, more than `max_bytes` bytes (by default 1 MiB; documents that hold data need more), more than
+/// 10,000 values and nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes = std::size_t{1} << 20);
 
 /// Returns the number of values in a document or in a part of a document, including `node` itself.
 std::size_t CountValues(const Node& node);
 
-/// Describes a value for complaints: "a mapping", "a list", "'abc'", "nothing".
+/// Describes a value for error messages: "a mapping", "a list", "'abc'", "nothing".
 std::string Describe(const Node& node);
 
 }  // namespace etude

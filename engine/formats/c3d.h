@@ -33,8 +33,8 @@ bool IsC3d(std::string_view bytes);
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points
-/// up, and the first frame's number its time `start_s`. A marker that was not seen is written with the residual −1.
-/// Names longer than 127 bytes are cut. Precondition: at most 65,535 markers.
+/// up, and the number of the first frame states the start time `start_s`. A marker that was not seen is written with
+/// the residual −1. Names longer than 127 bytes are cut. Precondition: at most 65,535 markers.
 std::string WriteC3d(const MarkerMotion& motion);
 /// Writes a body's joints as a C3D file with one marker per role.
 std::string WriteC3d(const BodyMotion& motion);

@@ -99,7 +99,7 @@ std::optional<std::size_t> JointNamed(const std::string& letters, std::size_t jo
   return found;
 }
 
-/// A heading, taken apart.
+/// A heading, split into words.
 struct JointHeading {
   std::optional<char> axis;
   std::string letters;               ///< without the axis
@@ -143,7 +143,7 @@ bool AreMerged(std::span<const std::string> texts, const KinectColumns& columns)
 
 Result<std::vector<std::size_t>> FindKinectJoints(const NumberRows& table, const KinectColumns& columns,
                                                   const std::string& file) {
-  // Take the headings apart. A longer line is no line of headings.
+  // Split the headings into words. A longer line is not a line of headings.
   constexpr std::size_t kMaxHeadingBytes = 1 << 16;
   if (table.heading.size() > kMaxHeadingBytes) return std::vector<std::size_t>{};
   std::vector<std::string> texts = HeadingsOf(table.heading);

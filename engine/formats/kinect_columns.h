@@ -21,7 +21,7 @@ struct KinectColumns {
 /// the joints as the SDK does or as Etude does, in any case, with the side before or behind ("HipLeft", "left_hip"),
 /// and with any other words ("HipLeft_position_x"). There is one heading for each number, or one for each joint, and
 /// then the headings of a joint's other numbers may be empty. Fails if a heading names no joint of this Kinect, if a
-/// joint is missing or occurs twice, or if a joint's x, y and z do not stand beside each other in this order.
+/// joint is missing or occurs twice, or if a joint's x, y and z are not adjacent and in this order.
 Result<std::vector<std::size_t>> FindKinectJoints(const NumberRows& table, const KinectColumns& columns,
                                                   const std::string& file);
 

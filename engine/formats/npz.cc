@@ -285,7 +285,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
   if (members < 0 || static_cast<std::size_t>(members) > kMaxMembers) {
     return Fail({file}, "found {} members; allowed: at most {}", members, kMaxMembers);
   }
-  // Read every .npy member, and remember the first member of another kind for the complaint.
+  // Read every .npy member, and remember the first member of another kind for the error message.
   Npz read;
   std::string others;
   std::uint64_t left = kMaxUnpacked;

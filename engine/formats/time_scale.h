@@ -32,11 +32,12 @@ struct ToldRate {
   std::string times = "the column Time";
 };
 
-/// Finds the origin and unit of a file's times (NaN: missing). The unit is the second, with two exceptions. If the
+/// Finds the origin and unit of a file's times (NaN: missing). The unit is the second, with two exceptions. (1) If the
 /// times agree with the stated rate only in another unit (milli-, micro- or nanoseconds, ticks of 100 ns, hundredths of
-/// a second, frames), that unit is taken. If they agree in none, or no rate is stated, and six or more rows would be
-/// more than a second apart, the unit is taken that gives a usual rate, or else 10 to 400 Hz, or else at least 1 Hz. If
-/// the first time is beyond ±10⁶ s (as times since 1970 are), it becomes 0 s.
+/// a second, frames), that unit is taken. (2) If the times agree with the stated rate in no unit, or no rate is stated,
+/// and if in seconds six or more rows would be more than a second apart, the unit is the one that gives a usual rate,
+/// or else 10 to 400 Hz, or else at least 1 Hz. If the first time is beyond ±10⁶ s (as times since 1970 are), it
+/// becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
 
 }  // namespace etude

@@ -86,7 +86,7 @@ struct KeypointLayout {
   std::string name;
   std::vector<Landmark> landmarks;
   std::size_t more = 0;  ///< number of further points, of face and hands, that are ignored
-  bool is_rare = false;  ///< only chosen by its name, because a usual layout has as many points
+  bool is_rare = false;  ///< found only by name, because a more usual layout has the same number of points
 };
 
 /// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), the rare "h36m" (17 points; Human3.6M, MotionBERT)

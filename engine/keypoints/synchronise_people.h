@@ -15,12 +15,12 @@ struct PeopleSyncOptions {
 };
 
 /// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks in
-/// `engine/capture/synchronise.h`: frame k of a camera was taken at the first camera's time k + offset. People need
-/// not be identified: at each offset, every person tracked in another camera is compared with all people of this
-/// camera, and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. The cameras that
-/// agree with each other determine the offsets: first the pair that shows its offset most clearly, then one camera at a
-/// time. A camera whose offset cannot be determined gets 0 and is not told. The offset of the first camera is 0 by
-/// definition; if it is not told, the offset of the first camera that is told is 0.
+/// `engine/capture/synchronise.h`: frame k of a camera was taken at the first camera's time k + offset. People need not
+/// be identified: at each offset, every person tracked in another camera is compared with all people of this camera,
+/// and the person with the lowest mean squared epipolar distance (`EpipolarGeometry`) counts. The cameras that agree
+/// with each other determine the offsets: first the pair that shows its offset most clearly, then one camera at a time.
+/// A camera whose offset cannot be determined gets 0, and its `is_told` is false. The offset of the first camera is 0
+/// by definition; if its `is_told` is false, the offset of the first camera with `is_told` is 0.
 /// @param cameras the cameras of the rig, without lens distortion; all pixels must be undistorted
 /// @param people the people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -18,7 +18,7 @@ namespace etude {
 
 /// The body model of a capture: a kinematic tree, and what pictures show of the tree's limbs.
 struct CaptureBody {
-  /// What pictures show of an end effector: its position, the direction of its last limb, or both quantities.
+  /// The quantities of an end effector that pictures show: its position, the direction of its last limb, or both.
   struct End {
     Role role;
     bool has_position = true;

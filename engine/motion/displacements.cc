@@ -180,8 +180,8 @@ Displacement Measure(const BodyMotion& motion, const FrameRange& steps, std::opt
     if (glm::length(found.lasting) > glm::length(found.largest)) found.largest = found.lasting;
     places.push_back(found.lasting);
   }
-  // Measure from both ends, and take the larger displacement. If both nearly agree, take the smaller: they differ by
-  // the motion meanwhile.
+  // Measure from both ends, and take the larger displacement. If both nearly agree, take the smaller: the difference is
+  // then the body's own motion.
   glm::dvec3 from_after{0};
   for (const glm::dvec3& place : places) {
     if (glm::distance(place, found.lasting) > glm::length(from_after)) from_after = found.lasting - place;

@@ -22,8 +22,8 @@ struct Displacement {
   int before = 0, after = 0;
   glm::dvec3 lasting{0};  ///< metres; displacement of all frames from `after` on
   glm::dvec3 largest{0};  ///< metres; largest displacement of a single frame in (`before`, `after`]
-  /// Metres; the larger of `largest` and of the largest displacement from frame `after`, or the smaller if both nearly
-  /// agree. The same length in reversed time.
+  /// Metres. Of `largest` and the largest displacement relative to frame `after`, the longer vector, or the shorter one
+  /// if their lengths nearly agree. A motion played backwards gives the same length.
   glm::dvec3 size{0};
 };
 

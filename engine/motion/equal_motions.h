@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// A motion of any body: where each joint is in each frame, metres; NaN where it is not seen. Any axes and origin.
+/// A motion of any body: the position of each joint in each frame, metres; NaN if the joint is not seen. Axes and
+/// origin are arbitrary.
 struct Places {
   std::size_t frames = 0, joints = 0;
   std::function<glm::dvec3(std::size_t frame, std::size_t joint)> at;
@@ -23,7 +24,7 @@ Places PlacesOf(const BodyMotion& motion);
 std::vector<glm::dvec3> SketchOf(const Places& places, std::size_t max_frames = 12, std::size_t max_joints = 30);
 
 /// Returns true if one rigid motion of the whole take moves all positions of one onto those of the other, to within a
-/// millimetre, in all frames and joints: files of one motion may be rounded, and turned or moved.
+/// millimetre, in all frames and joints: two files of one motion may differ by rounding, a rotation and a translation.
 bool AreEqual(const Places& a, const Places& b);
 
 /// Finds equal motions among `count` ones. Returns, for each, the first motion that it equals; nothing for the first
@@ -33,7 +34,7 @@ std::vector<std::optional<std::size_t>> FindEqual(std::size_t count,
                                                   const std::function<std::vector<glm::dvec3>(std::size_t)>& sketch_of,
                                                   const std::function<bool(std::size_t, std::size_t)>& are_equal);
 
-/// The same for motions that are at hand.
+/// Finds equal motions among motions in memory, with SketchOf and AreEqual.
 std::vector<std::optional<std::size_t>> FindEqual(const std::vector<Places>& motions);
 
 /// Removes the entry of each motion that equals an earlier one (FindEqual).

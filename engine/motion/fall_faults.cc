@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// A flight: the downward acceleration of the mass centre, metres per second², and the height of its arc, metres.
+/// A flight: the downward acceleration of the centre of mass, metres per second², and the height of its arc, metres.
 struct Flight {
   FrameRange frames;
   double fall = 0, sag = 0;
@@ -23,7 +23,7 @@ std::vector<Flight> FindFlights(const GroundView& ground) {
   // Mark frames in which all feet have left the floor and no other joint is near the floor.
   std::vector<bool> is_clear(ground.frames());
   for (int f = 0; f < ground.frames(); ++f) is_clear[f] = ground.FootHeight(f) > kClear && ground.IsOnFeet(f);
-  // Fit the height of the mass centre in each flight.
+  // Fit the height of the centre of mass in each flight.
   std::vector<Flight> flights;
   for (const FrameRange& span : RangesOf(is_clear)) {
     const int count = span.last - span.first + 1;

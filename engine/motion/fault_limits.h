@@ -7,8 +7,8 @@ namespace etude::fault_limits {
 
 inline constexpr double kAgreeingShare = 0.7;  ///< share of joints that move alike in a whole-body displacement
 
-/// Below this rate, the third differences of fast honest motion reach the limits of pops: at 10 Hz those of the hand in
-/// a recorded tennis serve are 1 m. If accelerations stay below a, third differences (halved) stay below a / rate², so
+/// Below this rate, the third differences of fast real motion reach the limits of pops: at 10 Hz those of the hand in a
+/// recorded tennis serve are 1 m. If accelerations stay below a, third differences (halved) stay below a / rate², so
 /// the limits grow with 1 / rate². In 95 clips of people and animated characters, resampled to 5, 8, 10, 12, 15, 20, 25
 /// and 30 Hz, third differences stay below these limits, except in one punch of an animated robot.
 inline constexpr double kSlow_hz = 20;

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// A parabola fitted to the height of the mass centre.
+/// A parabola fitted to the height of the centre of mass.
 struct Parabola {
   double fall = 0;   ///< downward acceleration, metres per second²
   double stray = 0;  ///< root mean square deviation, metres

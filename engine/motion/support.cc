@@ -23,7 +23,7 @@ BodyPose VelocityAt(std::span<const BodyPose> poses, int frame, double rate_hz) 
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-/// Returns a flag for each frame: true if the mass centre's downward acceleration is SupportRules::min_fall or more.
+/// Returns a flag for each frame: true if the centre of mass's downward acceleration is SupportRules::min_fall or more.
 /// The acceleration is the second difference over a tenth of a second in each direction. A frame in the first or the
 /// last tenth of a second has the flag of the nearest frame for which this difference exists.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
@@ -60,8 +60,8 @@ Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, co
   return bearing;
 }
 
-/// Returns true if the mass centre is in free flight from frame `first` to `last`: a parabola fits its height, and its
-/// downward acceleration is near gravity's.
+/// Returns true if the centre of mass is in free flight from frame `first` to `last`: a parabola fits its height, and
+/// its downward acceleration is near gravity's.
 bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
   constexpr int kMinFrames = 5;
   if (last - first + 1 < kMinFrames) return false;
@@ -98,7 +98,7 @@ void RemoveRaisedFeet(std::span<const BodyPose> poses, const SupportRules& rules
 }
 
 /// Returns true if the ground can have thrown the body into the air at frame `from`: in that frame and in the frame
-/// before it, the acceleration of the mass centre needs a force of at most SupportRules::max_push. Also returns true
+/// before it, the acceleration of the centre of mass needs a force of at most SupportRules::max_push. Also returns true
 /// if one of these accelerations is unknown, because fewer than two frames come before `from` or none comes after it.
 bool IsThrown(std::span<const BodyPose> poses, int from, double rate_hz, const SupportRules& rules) {
   constexpr double kGravity = 9.81;

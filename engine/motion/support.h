@@ -25,8 +25,8 @@ struct SupportRules {
   double toes = 0.05;         ///< toes are raised if they are more than this above the lowest joint of the clip's pose
   double level = 0.12;        ///< rest heights that differ by more than this are two surfaces, such as floor and step
   double window_s = 1.0 / 3;  ///< a clip's rest heights near a frame are those up to this long before or after
-  /// A body without support is in flight if the downward acceleration of its mass centre is in this range, metres per
-  /// second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
+  /// A body without support is in flight if the downward acceleration of its centre of mass is in this range, metres
+  /// per second², and if the height deviates from a parabola by at most `flight_stray` (root mean square).
   double min_fall = 6.5, max_fall = 13;
   double flight_stray = 0.008;
   double max_push = 3;  ///< largest force, in body weights, with which the ground throws a body into the air
@@ -34,7 +34,7 @@ struct SupportRules {
 
 /// The joints that support a body in one frame of a clip.
 struct Bearing {
-  JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (SupportRules::min_fall)
+  JointSet rests;  ///< lowest joints that are at rest; none while the centre of mass falls (SupportRules::min_fall)
   /// Equals `rests` unless `rests` is empty (a jump, walking on the spot, a skating foot). If it is empty, all of the
   /// lowest joints that do not glide count as bearing, because a clip is taken to be right. A joint glides if it
   /// moves over the floor faster than SupportRules::rest_speed and faster than three times its speed relative to the
@@ -83,11 +83,10 @@ struct Support {
 ///   below the lowest of these heights, or within SupportRules::height of another of these heights.
 /// - The joint moves like the same joint of a clip, and that joint bears the clip's body in that frame or in the frame
 ///   before or after it. The heights of the two joints differ by at most SupportRules::height, their velocities by at
-///   most SupportRules::rest_speed.
-/// Consecutive frames without support are a flight if the body is supported just before and just after them, if the
-/// ground can have thrown it (SupportRules::max_push), and if the mass centre falls within the limits min_fall,
-/// max_fall and flight_stray of SupportRules. The fall is judged over these frames, or over these frames and the two
-/// neighbouring frames, but at least over five frames.
+///   most SupportRules::rest_speed. Consecutive frames without support are a flight if the body is supported just
+///   before and just after them, if the ground can have thrown it (SupportRules::max_push), and if the centre of mass
+///   falls within the limits min_fall, max_fall and flight_stray of SupportRules. The fall is judged over these frames,
+///   or over these frames and the two neighbouring frames, but at least over five frames.
 class SupportFinder {
  public:
   /// The clips' poses must outlive this object.
@@ -118,7 +117,7 @@ glm::dvec3 MassCentre(const BodyPose& pose);
 /// Returns the horizontal distance from a point (x, z) of the floor to the convex hull of `joints`, metres; 0 inside
 /// the hull. Returns nullopt if `joints` is empty. Feet have no width here.
 std::optional<double> OffsetFromJoints(const glm::dvec2& point, const BodyPose& pose, const JointSet& joints);
-/// Returns OffsetFromJoints of the mass centre.
+/// Returns OffsetFromJoints of the centre of mass.
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints);
 
 }  // namespace etude

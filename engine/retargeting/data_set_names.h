@@ -11,14 +11,14 @@
 
 namespace etude {
 
-/// A joint of a set, by its name in JointLayouts (a joint that plays a role has the role's name), and the points of a
-/// file whose mean it is; mostly one.
+/// A joint of a data set, by its name in JointLayouts (a joint that plays a role has the role's name). Its position is
+/// the mean of some points of a file, usually of one point.
 struct KnownJoint {
   std::string joint;
   std::vector<std::size_t> points;  ///< indices of the points' names
 };
 
-/// The joints of a data set that the points of a file are by their names.
+/// A data set, and the joints of the data set that a file's points are, according to the points' names.
 struct DataSetJoints {
   std::string_view data_set;
   std::vector<KnownJoint> joints;
@@ -26,7 +26,7 @@ struct DataSetJoints {
 
 /// Finds the data set whose published code names its joints like these points. One word can mean different joints in
 /// different data sets: "neck" is the base of the neck in SMPL, but not in Human3.6M, which calls that joint "thorax".
-/// Returns nullopt if the names are of no known data set. Case and separators are ignored, and sides may be written as
+/// Returns nullopt if no known data set has these names. Case and separators are ignored, and sides may be written as
 /// in "left_hip", "LHip", "L_Hip" or "HipLeft".
 std::optional<DataSetJoints> FindDataSet(std::span<const std::string> names);
 

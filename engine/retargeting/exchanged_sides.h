@@ -29,10 +29,10 @@ struct Exchange {
 /// Finds exchanges within a motion (ours): frames in which each joint of a pair moves to the other joint's place. All
 /// pairs of joints are searched, those of left and right first. Let d be the distance that the one joint moves from the
 /// frame before, plus the distance that the other joint moves. If the two names are exchanged in this frame, the sum
-/// must be less than d / 4. So that crossing arms are no exchange, the sums of the frame before and of the frame after
-/// must also be less than d / 4, each with the names exchanged or not. A joint exchanges its place with one joint only,
-/// the one for which the sum is least. Joints nearer than 5 cm to each other and rates below 10 Hz are not judged.
-/// Exchanges of three joints are not found. `frames` are in metres.
+/// must be less than d / 4. Because crossing arms are not an exchange, the sums of the frame before and of the frame
+/// after must also be less than d / 4, each with the names exchanged or not. A joint exchanges its place with one joint
+/// only, the one for which the sum is least. Joints nearer than 5 cm to each other and rates below 10 Hz are not
+/// judged. Exchanges of three joints are not found. `frames` are in metres.
 std::vector<Exchange> FindExchanges(std::span<const JointPositions> frames, double rate_hz);
 /// Returns a message for the user about all that FindExchangedJoints and FindExchanges find; "" if that is nothing.
 /// `name_of` returns the name of a joint for the message.

@@ -30,8 +30,8 @@ struct ArrayJoints {
 Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
                                   const std::string& file, std::optional<UpAxis> told = {});
 
-/// Returns a remark if an array has only a few frames, and most joints jump from each to the next: they may be people
-/// of one picture. Otherwise returns "".
+/// Returns a remark if an array has only a few frames, and most joints jump from each frame to the next: the frames may
+/// be several people in one picture. Otherwise returns "".
 std::string DescribeFewFrames(const MarkerMotion& motion);
 
 /// Returns the joints in SAM 3D Body's results: `pred_joint_coords` (frames × 127 × 3), otherwise `pred_keypoints_3d`

@@ -88,8 +88,8 @@ class PeopleFinder {
     return people;
   }
 
-  /// Adds a remark to the first complete person whose needed markers have the same names as those of `other`, which lie
-  /// apart.
+  /// Adds a remark to the first complete person whose needed markers have the same names as those of `other` but are
+  /// apart from them.
   void AddRemark(const MarkerPerson& other, std::vector<MarkerPerson>& people) const {
     for (MarkerPerson& person : people) {
       if (!person.IsComplete() || !person.remark.empty()) continue;
@@ -128,8 +128,8 @@ class PeopleFinder {
     return needed;
   }
 
-  /// Returns true if the markers of the same names lie apart where both are first seen. Markers that a program computed
-  /// from others of the same person do not.
+  /// Returns true if the markers of the same names are apart from each other in the first frame that shows both.
+  /// Markers that a program computed from others of the same person are not apart.
   bool LieApart(const MarkerPerson& person, const MarkerPerson& other) const {
     constexpr double kApart_m = 0.1;
     std::vector<double> distances;

@@ -22,11 +22,11 @@ struct MarkerPerson {
   bool IsComplete() const { return chosen.set() != nullptr && MissingFrom(*chosen.set(), columns).empty(); }
 };
 
-/// Finds whose markers are whose, by the markers' names. The text before the last ':' names a person. Markers without
-/// it, or with the same text, are several people if that splits them into several complete sets which share the names
-/// of their markers and lie apart: by a text at the beginning that ends with '_', '.', '-', '/' or a blank ("p1_LANK"),
-/// or by a text at the end that begins with one of these or consists of digits ("LANK.1", "LANK2"). Markers that no
-/// frame shows count as absent. `set` and `roles` are those of ChooseSet.
+/// Assigns the markers of a file to people, by the markers' names. The text before the last ':' names a person. Markers
+/// without it, or with the same text, are split into several people if each part is a complete set, the parts have the
+/// same names of markers, and the people are apart from each other: by a text at the beginning that ends with '_', '.',
+/// '-', '/' or a blank ("p1_LANK"), or by a text at the end that begins with one of these or consists of digits
+/// ("LANK.1", "LANK2"). Markers that no frame shows count as absent. `set` and `roles` are those of ChooseSet.
 std::vector<MarkerPerson> FindMarkerPeople(const MarkerMotion& markers, const std::string& set,
                                            const std::map<Role, std::string>& roles);
 

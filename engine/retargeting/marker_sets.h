@@ -28,10 +28,10 @@ struct MarkerSet {
   std::array<std::string, 4> pelvis = {};  ///< markers of the pelvis: left and right front, left and right back; the
                                            ///< hips are computed from these markers
   std::string sacrum = "";                 ///< the marker that may replace the two markers on the back of the pelvis
-  /// True if knees, ankles and elbows with one marker each have it on the skin. Further markers on thighs and shanks
-  /// (wands) then show the planes in which the limbs bend.
+  /// True if the marker of a knee, ankle or elbow that has only one marker is on the skin. Further markers on thighs
+  /// and shanks (wands) then show the planes in which the limbs bend.
   bool has_skin_limbs = false;
-  bool has_skin_shoulders = false;  ///< true if shoulders have one marker each, on top
+  bool has_skin_shoulders = false;  ///< true if each shoulder has one marker, on top of it
   bool is_own = false;              ///< true for Etude's joints: Y is up, and the floor may be kept
   std::array<std::string, 4> wands = {};  ///< markers beside left and right thigh, left and right shank; "" = none
   int rank = 0;                     ///< if a person has several sets, the set with the highest rank is used

@@ -71,7 +71,7 @@ struct MarkerBody {
 /// COCO, HALPE_26, the bones of Motive and HumanIK, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait; if
 /// none is complete, skin markers such as Helen Hayes (SetOfSkinNames) or a naming scheme of skeletons. For each person
 /// who has the markers that `options.roles` names, its rules replace the set's rules; without a known set, they are the
-/// only rules. Case is ignored. FindMarkerPeople finds whose markers are whose. Joint centres are found by these rules,
+/// only rules. Case is ignored. FindMarkerPeople assigns the markers to people. Joint centres are found by these rules,
 /// which are ours where no source is named:
 /// - the mean of the markers on both sides of a joint, if a set has both;
 /// - hips from the four markers of the pelvis (or its two front markers and one on the sacrum) by the regression of

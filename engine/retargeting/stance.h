@@ -10,12 +10,12 @@ namespace etude {
 /// Measurements of a motion under the assumption that one axis points up. Lengths are multiples of the stature.
 struct AxisStance {
   double upright = 0;   ///< share of the frames with the trunk upright, the hips above the feet, and the head on top
-  double balanced = 0;  ///< share of the frames with the mass centre over the feet
+  double balanced = 0;  ///< share of the frames with the centre of mass over the feet
   double straight = 0;  ///< share of the frames with trunk, head and legs straight along the axis, as in static trials
   double tall = 0;      ///< share of the frames with the hips above the ankles by nearly the length of the legs
   double propped = 0;   ///< share of the frames in which hands and legs on one plane carry the body (IsPropped)
   double lowest = 0;    ///< the lowest joint's height in the file's axes (5th percentile)
-  double bottom = 0;    ///< like `lowest`, but the 1st percentile, which also people who jump reach
+  double bottom = 0;    ///< like `lowest`, but the 1st percentile; people who jump also reach it
   double floor = 0;     ///< range of the lowest joint's height (5th to 95th percentile)
   double hover_s = 0;   ///< longest time, seconds, with the lowest joint more than half a stature above `lowest`
   double way = 0;       ///< largest extent of the hip centre's path, perpendicular to the axis

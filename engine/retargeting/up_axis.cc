@@ -90,8 +90,8 @@ bool Sits(const AxisStance& other, const AxisStance& usual, const UpRule& rule) 
 /// `other` as the up axis; "" if it does not show that. Each limit is beyond what people do who stand, walk, sit, jump
 /// or climb stairs.
 std::string DescribeFloorWork(const AxisStance& usual, const AxisStance& other) {
-  // The body climbs along the usual axis, and the lowest joint's height hardly varies along the other axis. Who climbs
-  // stairs travels forwards too, and who jumps comes down at once.
+  // The body climbs along the usual axis, and the lowest joint's height hardly varies along the other axis. A person
+  // who climbs stairs also travels forwards, and a person who jumps comes down at once.
   constexpr double kClimb = 0.6, kHover_s = 2, kSteep = 0.5, kMaxFloor = 0.6;
   const bool is_steep = usual.way < kSteep * usual.floor || usual.upright < 0.5;
   if (usual.floor > kClimb && usual.hover_s > kHover_s && is_steep &&

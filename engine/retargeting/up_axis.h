@@ -38,7 +38,7 @@ struct UpFinding {
 
 /// Finds the axis that points up (ours). The result is the rule's axis, unless the rule's evidence is kPosture and the
 /// whole motion is evidence for another axis. If the file or its format states the axis, evidence for another axis only
-/// sets `doubt`; but UpRule::yields_to_walking. The motion is evidence for another axis in three cases:
+/// sets `doubt`, except as UpRule::yields_to_walking says. The motion is evidence for another axis in three cases:
 /// - Along the other axis, the body is upright in a tenth of the frames and the lowest joint stays at one height. Along
 ///   the usual axis, this height varies. In the other frames, people may lie, crawl or stand on their hands.
 /// - The body squats or bows in one place: along the other axis, it is upright in three tenths of the frames, with its
@@ -50,21 +50,22 @@ struct UpFinding {
 ///   - the body walks: it travels perpendicular to the other axis while one foot stands;
 ///   - the file or its format states the usual axis, and along the usual axis the body stands on its head, but not on
 ///     its hands;
-///   - along the other axis, the body's weight is over its feet (not so for a person who lies), and the lowest joint's
+///   - along the other axis, the body's weight is over its feet (which is false for a person who lies), and the lowest
+///     joint's
 ///     height varies less than along the usual axis;
 ///   - along the other axis, the body's weight is over its feet, and the body stands quite still and straight, as in
 ///     static trials;
 ///   - the body sits upright along the other axis with its feet at one height, and its hands do not carry it along the
 ///     usual axis. A body that lies with hips and knees at right angles has the same shape; so `doubt` names both, and
 ///     if the body may lie on one side, the usual axis is kept.
-/// A stated axis is not doubted if a body that stands along another axis lies at height 0 along the stated one. AMASS is
-/// also doubted if the body is never upright, and below its floor or higher than beds.
-/// In case of doubt, the usual axis is taken. If it is only a guess, and the body would climb, lean or float along it
-/// but would be on the floor with Y or Z, the other of the two, as the up axis, `doubt` names both; also if nothing
-/// shows that the body stands or sits along the usual axis (steps, a floor at height 0, shanks upright below level
-/// thighs, hips or shoulders that move over the feet) and it may lie along it. `poses` contains at
-/// least one pose, in the file's unit and axes. A missing toe must be at the position of its ankle, and a missing hand
-/// at its wrist.
+/// A stated axis is not doubted if a body that stands along another axis lies at height 0 along the stated one. The
+/// axis of AMASS is also doubted if the body is never upright, and is below its floor or higher than a bed. In case of
+/// doubt, the usual axis is taken. If the usual axis is only a guess, `doubt` names Y and Z in two cases: with the
+/// usual axis up, the body would climb, lean or float, but with the other one it would be on the floor; or with the
+/// usual axis up, nothing shows that the body stands or sits (steps, a floor at height 0, shanks upright below level
+/// thighs, hips or shoulders that move over the feet), and with the other one up, the body may be lying. `poses`
+/// contains at least one pose, in the file's unit and axes. A missing toe must be at the position of its ankle, and a
+/// missing hand at its wrist.
 UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& rule);
 
 /// Finds the up axis, Y or Z, of a clip with a skeleton. The usual axis is the axis along which the rest pose stands

@@ -74,8 +74,8 @@ struct SilhouetteCostOptions {
   /// points correlated.
   double sigma_px = 8;
   /// The reach of the loss (Geman and McClure). A larger residual, of an outline point or of flesh outside the
-  /// silhouette, loses weight: it comes from a shadow, a lost piece of the mask, or a limb in another position. Use a
-  /// wide reach far from the solution, and a narrow reach near it.
+  /// silhouette, gets less weight: it comes from a shadow, a lost piece of the mask, or a limb in another position. Use
+  /// a wide reach far from the solution, and a narrow reach near it.
   double outline_reach_px = 14;
   double inside_reach_px = 60;
   /// The share of each flesh radius that must lie inside the silhouette. It is below 1 because the person may be

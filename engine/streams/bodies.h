@@ -15,7 +15,7 @@
 namespace etude {
 
 /// The people of one file, distinguished by the file's identifiers of bodies. If several bodies of one frame have the
-/// same identifier, or none, positions tell them apart: each body continues the nearest body of the frames before.
+/// same identifier, or none, positions distinguish them: each body continues the nearest body of the frames before.
 class Bodies {
  public:
   /// Adds a frame in which the body `id` ("" if the file gives none) is seen. `frame` is the frame's index in the file;
@@ -61,7 +61,8 @@ class Bodies {
   /// Returns how far the joints move, in squares of the file's unit (ours): the sum over the joints of the squared
   /// diagonal of the box that holds the joint's places, without the lowest and the highest 5 % along each axis. A place
   /// is the median of up to ten frames, and a step by more than a trunk per frame is left out, so that neither jitter
-  /// nor a jump counts as motion. Squares, because one waving hand is more motion than a little jitter of every joint.
+  /// nor a jump counts as motion. The diagonals are squared so that one waving hand counts as more motion than a little
+  /// jitter of every joint.
   static double SpreadOf(const Body& body);
   static std::optional<double> GapInTrunks(const Seen& before, const Seen& after);
 

@@ -44,9 +44,9 @@ std::optional<glm::dvec3> MedianTrunk(std::span<const RecordedFrame> frames, dou
   return glm::normalize(middle);
 }
 
-/// Returns MedianTrunk. Who squats or bows leans forwards, so if the distance from head to ankles falls by more than a
-/// seventh, only the frames with a large distance count. But if the trunk is far from the file's up direction in these,
-/// the body lies in them, and all frames count.
+/// Returns MedianTrunk. A person who squats or bows leans forwards, so if the distance from head to ankles falls by
+/// more than a seventh, only the frames with a large distance count. But if the trunk is far from the file's up
+/// direction in these frames, the body is lying in them, and all frames count.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   constexpr double kTall = 0.95, kDown = 6.0 / 7;
   std::vector<double> heights;

@@ -31,16 +31,16 @@ struct StreamLevel {
   glm::dvec3 Apply(const glm::dvec3& place) const { return R_WF * place - glm::dvec3(0, floor_m, 0); }
 };
 
-/// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up
-/// is the normal of the plane under standing feet if the feet determine the plane: their positions have a standard
+/// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
+/// the normal of the plane under standing feet if the feet determine the plane: their positions have a standard
 /// deviation of at least 10 cm in both horizontal directions and of at most 3 cm from the plane, and the normal is
-/// within 15° of the trunk. Otherwise up is the trunk's median direction, so a constant lean counts as a tilt of
-/// the sensor; who squats or bows is only measured while standing tall. If the result is more than 30° from the
-/// file's own up, nothing is rotated. If the sensor was mounted in portrait or upside down, the frames are first
-/// rotated upright, by quarter turns about the line of sight. Such a sensor is recognised by the trunk: in seven of
-/// ten frames the trunk is within 30° of another axis of the file, and hardly ever near the file's up axis. In
-/// portrait, the body must also face the sensor, or away from it, in the median frame; a body that lies in front of
-/// an upright sensor usually faces up or down. The floor is the 10th percentile of the lower foot's height.
+/// within 15° of the trunk. Otherwise up is the trunk's median direction, so a constant lean counts as a tilt of the
+/// sensor. If the person squats or bows, only the frames count in which the person stands tall. If the result is more
+/// than 30° from the file's own up, nothing is rotated. If the sensor was mounted in portrait or upside down, the
+/// frames are first rotated upright, by quarter turns about the line of sight. Such a sensor is recognised by the
+/// trunk: in seven of ten frames the trunk is within 30° of another axis of the file, and hardly ever near the file's
+/// up axis. In portrait, the body must also face the sensor, or away from it, in the median frame; a body that lies in
+/// front of an upright sensor usually faces up or down. The floor is the 10th percentile of the lower foot's height.
 /// `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 

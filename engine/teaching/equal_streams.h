@@ -14,9 +14,9 @@ namespace etude {
 bool ShowSameMotion(const SkeletonStream& a, const SkeletonStream& b);
 
 /// Leaves out each recording that shows the same motion as another one (AreEqual), such as a copy or another format of
-/// it, so that the motion counts once. Removes it from `streams`, and its performances from `parts`, whose indices are
-/// renewed. Returns the recordings that were left out, with the reason. Fails, naming both recordings, if they name two
-/// people or if they have other performances.
+/// it, so that the motion counts once. Removes it from `streams`, and its performances from `parts`; the indices in
+/// `parts` are updated. Returns the recordings that were left out, with the reason. Fails, naming both recordings, if
+/// they name two people or if they have other performances.
 Result<std::vector<Error>> LeaveOutCopies(std::vector<NamedStream>& streams, std::vector<LabelledPart>& parts);
 
 /// Returns how many of the performances show the same motion as an example that one of the moves was taught with, right

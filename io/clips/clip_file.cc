@@ -369,7 +369,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   if (first.text == "{") return FileOfScene(ClipFormat::kGltf, bytes, path, reader);
   if (bytes.starts_with("glTF")) return FileOfScene(ClipFormat::kGlb, bytes, path, reader);
   if (IsFbx(bytes)) return FileOfScene(ClipFormat::kFbx, bytes, path, reader);
-  // Try Acclaim and BVH; the complaint of the BVH reader describes any other file.
+  // Try Acclaim and BVH; the error message of the BVH reader describes any other file.
   if (IsAcclaimMotion(bytes)) {
     AcclaimFacts facts;
     ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader, facts));

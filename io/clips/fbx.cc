@@ -97,7 +97,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
 }
 
 /// Runs in the child process. Answers each file with kSaidGlb, the bytes of FbxKeyFacts, a line with the reader's name
-/// and the GLB file; or with kSaidComplaint and a complaint.
+/// and the GLB file; or with kSaidComplaint and an error message.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -105,7 +105,7 @@ int ReadFilesInChild(int socket) {
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
   std::string missing, name;
   GlbOfFbxBytes* read = nullptr;
-  // Load the module once. If that fails, every file gets the same complaint.
+  // Load the module once. If that fails, every file gets the same error message.
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
     missing = std::string("reading an FBX file needs assimp, which is missing (") + ::dlerror() +
               "); install Debian's libassimp-dev, and build Etude again";
@@ -206,7 +206,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   std::optional<std::string> said;
   bool is_too_long = false;
   if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kMaxGlbBytes, is_too_long);
-  // The child answered: return its GLB file or its complaint.
+  // The child answered: return its GLB file or its error message.
   if (said && said->starts_with(kSaidGlb) && said->size() > sizeof(FbxKeyFacts)) {
     FbxKeyFacts facts;
     std::memcpy(&facts, said->data() + 1, sizeof facts);

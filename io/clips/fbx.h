@@ -12,7 +12,7 @@ namespace etude {
 /// Two keys are near if they are at most this many seconds apart; between them, every curve is nearly straight.
 inline constexpr double kFbxNearKeys_s = 0.1;
 
-/// What the module found in the keys of a file.
+/// Properties of a file's keys that the module measured.
 struct FbxKeyFacts {
   /// The longest time, seconds, between two consecutive keys that differ: keys of one property, or of one axis whose
   /// curve is not straight.
@@ -20,12 +20,12 @@ struct FbxKeyFacts {
   double step_s = 0;     ///< the longest time, seconds, for which a stepped key holds the value of one axis
   double turn_deg = 0;   ///< the largest change, 180° or more, of an angle between two keys that are not near; 0: none
   double cut_s = 0;      ///< the longest time, seconds, of keys that lie outside the time span of their animation
-  int empty_spans = 0;   ///< animations whose time span lies beside their keys; all of their keys are used
+  int empty_spans = 0;   ///< animations whose time span contains none of their keys; all of their keys are used
 };
 
 /// The function of the module `etude_clips_assimp.so`. It converts the bytes of an FBX file, prepared by PrepareTakes,
 /// to a GLB file. On success it returns true; `said` then holds the GLB bytes, and `facts` describe the keys. On
-/// failure it returns false, and `said` holds a complaint.
+/// failure it returns false, and `said` holds an error message.
 using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said, FbxKeyFacts& facts);
 
 /// Returns true if `bytes` begin like a binary or text FBX file.
@@ -38,7 +38,7 @@ struct FbxMotion {
   std::string remark = "";  ///< parts of the file that were left out or replaced; "" if nothing
 };
 
-/// The beginning of the complaint about a file that crashed its reader; the number of the signal is appended.
+/// The beginning of the error message about a file that crashed its reader; the number of the signal is appended.
 inline constexpr std::string_view kReaderCrashed = "the FBX file is damaged: its reader ended with signal";
 
 /// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. Files may be

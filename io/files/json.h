@@ -25,8 +25,8 @@ using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 /// infinity with the path to the value; nlohmann would silently write null.
 Result<std::string> WriteJson(const Json& json);
 
-/// Describes a value for a complaint: by the value's JSON, cut after 40 characters; by "an object"; or by the length of
-/// the list.
+/// Describes a value for an error message: by the value's JSON, cut after 40 characters; by "an object"; or by the
+/// length of the list.
 std::string ShowJson(const Json& json);
 
 /// Returns the depth to which brackets nest. The text need not be valid JSON.

@@ -58,7 +58,7 @@ double NumberOf(const std::string& text) {
   return value;
 }
 
-/// What ffprobe says of a film.
+/// The properties of a film that ffprobe reports.
 struct Answer {
   std::map<std::string, std::string> keys;  ///< the first value of each key
   std::vector<double> times_s;              ///< of all packets or frames; NaN for those without a time

@@ -11,7 +11,7 @@ namespace etude {
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
 /// Returns the errors of single end effectors and the angles of joints in the form of paper B: the curves of figure
-/// 5.2, tables 5.1 and 5.2 filled from the run, and, beside these, the tables that the paper prints. Returns "" if no
+/// 5.2, tables 5.1 and 5.2 filled from the run, and, next to these, the tables that the paper prints. Returns "" if no
 /// cell recorded these data.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
 /// Returns the tables of PaperBHtml as collapsed Markdown tables (<details>), without the curves.

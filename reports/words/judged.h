@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What a method is compared with: the baseline that the scenario names, or the strongest other method.
+/// The method with which a method is compared: the baseline that the scenario names, or the strongest other method.
 enum class Against { kBaseline, kRival };
 
 struct Judged {

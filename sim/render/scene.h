@@ -165,7 +165,7 @@ PixelRect Union(const PixelRect& a, const PixelRect& b);
 
 /// The pixels of figures alone, which can be drawn over another background.
 struct Overlay {
-  /// What a pixel shows, stored as the pixel's fourth byte.
+  /// The object that a pixel shows, stored as the pixel's fourth byte.
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
 
   int width = 0, height = 0;

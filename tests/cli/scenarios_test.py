@@ -60,7 +60,7 @@ class Scenarios(EtudeCase):
         self.assertEqual(sorted(sources.values()), sorted([SEVERAL, SHARED]))
 
     def test_complaints_are_one_line_that_points_into_the_right_file(self):
-        # Mistakes, the file that contains each, and the complaint.
+        # Mistakes, the file that contains each, and the error message.
         cases = [
             (SEVERAL.replace("to: 15", "to: 1500"), SHARED,
              "several.yaml:6:30: 'joint_noise_deg': 185 is out of range"),

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Makes a failed expectation on a Result print the complaint instead of raw bytes.
+/// Makes a failed expectation on a Result print the error message instead of raw bytes.
 inline void PrintTo(const Error& error, std::ostream* out) { *out << ToString(error); }
 
 }  // namespace etude

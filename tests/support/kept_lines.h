@@ -16,9 +16,9 @@
 
 namespace etude::testing {
 
-/// Compares lines, such as complaints, with a text file beside the test. A failure shows the first different line. If
-/// `ETUDE_RENEW` is the file's path or its beginning, writes the file anew; the test still fails, and `git diff` shows
-/// the changes. Whoever commits them states why.
+/// Compares lines, such as error messages, with a text file beside the test. A failure shows the first different line.
+/// If `ETUDE_RENEW` is the file's path or its beginning, writes the file anew; the test still fails, and `git diff`
+/// shows the changes. The author of the commit states the reason.
 inline ::testing::AssertionResult AreKept(const std::vector<std::string>& lines, const std::string& path) {
   const char* const renewed = std::getenv("ETUDE_RENEW");
   if (renewed != nullptr && *renewed != 0 && path.starts_with(renewed)) {
@@ -38,9 +38,9 @@ inline ::testing::AssertionResult AreKept(const std::vector<std::string>& lines,
              path);
 }
 
-/// Lines that describe how readers treat texts: the number of accepted texts, and the first complaint of each kind.
-/// Complaints that differ only in numbers and quoted words are of one kind. Texts of libraries are left out, because
-/// they change between versions.
+/// Lines that describe how readers treat texts: the number of accepted texts, and the first error message of each kind.
+/// Messages that differ only in numbers and quoted words are of one kind. Texts of libraries are left out, because they
+/// change between versions.
 class ComplaintLines {
  public:
   /// Adds texts; `read` takes a text and returns a Result.

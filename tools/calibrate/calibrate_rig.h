@@ -58,7 +58,7 @@ RefineOptions RefineOptionsOf(const CalibrateOptions& options);
 Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 
 /// Calibrates a rig from point pairs or from pictures of boards, writes the rig and the optional outputs, and reports
-/// the findings. Every complaint names the file or the option.
+/// the findings. Every error message names the file or the option.
 Result<Calibrated> CalibrateRig(const CalibrateOptions& options);
 
 /// Writes the first of `boards` to `print`, as a PNG of 16 pixels per module, with the resolution that prints the board

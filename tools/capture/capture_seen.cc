@@ -34,7 +34,7 @@ Result<std::vector<PeopleOfFilm>> ReadFilms(const CaptureFilmsOptions& options, 
   for (const FilmedView& view : views) {
     ASSIGN_OR_RETURN(films.emplace_back(), read(view, false, 0));
   }
-  // Read again the films whose numbers or scores mean something else beside the other films.
+  // Read again the films whose numbers or scores have another meaning when all films are considered together.
   const bool from_one = std::ranges::any_of(films, &PeopleOfFilm::is_from_one);
   std::vector<double> scales;
   for (const PeopleOfFilm& film : films) scales.push_back(SharedScoreScale(film.score_scale, films));

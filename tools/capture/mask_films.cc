@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxNumber = 16;  // if no grey value exceeds this number, the values are region numbers, not shades
 
-/// The callback of VisitFolder and VisitFilm. It receives each mask of a film in order, and the file's name for
-/// complaints.
+/// The callback of VisitFolder and VisitFilm. It receives each mask of a film in order, and the file's name for error
+/// messages.
 using MaskVisit = std::function<Result<void>(const MaskPicture& mask, const std::string& file)>;
 
 Result<void> VisitFolder(const fs::path& folder, const MaskVisit& visit) {

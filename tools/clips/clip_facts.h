@@ -60,7 +60,7 @@ std::string DescribeMarkers(const std::vector<std::string>& markers);
 bool HasMarkers(const std::array<std::vector<std::string>, kRoleCount>& markers);
 
 /// Collects the facts of every clip that a reference stands for; ExpandReference must have returned the reference. The
-/// result is never empty: a file without clips also gives facts, and an unreadable file gives only the complaint.
+/// result is never empty: a file without clips also gives facts, and an unreadable file gives only the error message.
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
 /// Collects the facts of a clip whose roles are known, without its faults.
 ClipFacts FactsOf(const OpenedClip& clip);

@@ -12,8 +12,8 @@ namespace etude {
 /// 0.2 m/s. A motion that lacks one of the four joints has no contacts.
 std::vector<bool> ContactsByMotion(const RawMotion& motion);
 
-/// Returns `given`. What it lacks is computed from the truth's own motion: the beats (MotionBeats), and the mean and
-/// standard deviation (at least 1 cm) of each judged joint's coordinates.
+/// Returns `given`. Values that it lacks are computed from the truth's own motion: the beats (MotionBeats), and the
+/// mean and standard deviation (at least 1 cm) of each judged joint's coordinates.
 EvaluationSideData SideDataOf(const MatchedMotions& matched, EvaluationSideData given);
 
 /// Hides `percent` per cent of all positions of the answer (joints × frames): those that are farthest from the truth.

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// What is seen, frames × columns.
+/// Flags, frames × columns: true for values that are seen.
 struct Mask {
   std::size_t columns = 1;
   std::vector<char> seen;

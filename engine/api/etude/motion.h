@@ -23,10 +23,10 @@ struct ReadingOptions {
   std::string marker_set = "";  ///< name of the marker set for marker files, such as "opencap"; "": the best one
 };
 
-/// Reads a motion file and returns the motion of the twenty joints at `rate_hz`, in metres, Y up, with the feet on
-/// the floor unless `keep_floor` is set. The content decides the format: BVH, AMASS's and Etude's own .npz, C3D, TRC,
+/// Reads a motion file and returns the motion of the twenty joints at `rate_hz`, in metres, Y up, with the feet on the
+/// floor unless `keep_floor` is set. The content decides the format: BVH, AMASS's and Etude's own .npz, C3D, TRC,
 /// Etude's own CSV, Motive's CSV. Joints are identified by their names. Unless `options` give the unit, it is the
-/// file's own or is derived from the body's height. `file` is the file's name in complaints. `changes` receives one
+/// file's own or is derived from the body's height. `file` is the file's name in error messages. `changes` receives one
 /// sentence for users about each finding and each change that was made (unit, axis, floor, rate, composed joints).
 /// Throws BadInput for other formats, for bodies without some limbs, and for markers of several people.
 ETUDE_API BodyMotion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz = 30,

@@ -335,8 +335,8 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!is_read || !complaint.empty()) {
     // If a file could not be fetched, this caused the failure. (A missing picture does not make the parser fail.)
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
-    // Prefer our own complaints, which are the same with every version of tinygltf. They apply to glTF 2 only, because
-    // glTF 1 has names where 2.0 has numbers.
+    // Prefer our own error messages, which are the same with every version of tinygltf. They apply to glTF 2 only,
+    // because glTF 1 has names where 2.0 has numbers.
     const nlohmann::json::json_pointer version("/asset/version");
     if (json.contains(version) && json[version].is_string() && json[version].get<std::string>().starts_with("2")) {
       RETURN_IF_ERROR(CheckCounts(json, "", file));

@@ -102,7 +102,7 @@ class CcdSweep {
 };
 
 struct CcdAndersonOptions {
-  /// The number of former sweeps that the extrapolation uses. The default solves nearly as many problems as larger
+  /// The number of earlier sweeps that the extrapolation uses. The default solves nearly as many problems as larger
   /// values, in slightly more sweeps (README.md has the figures). Raise it if a sweep is much more expensive than the
   /// extrapolation, whose cost grows with the square of this number.
   int memory = 5;

@@ -82,7 +82,7 @@ IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& pr
 
 struct JacobianPinvOptions {
   /// The damping μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹. The default 0 is paper B's formula. With μ > 0, the null-space term also
-  /// moves the effectors, so steps end beside the targets; 10⁻³ is already too much. Set it to 10⁻⁶, which does no
+  /// moves the effectors, so steps end away from the targets; 10⁻³ is already too much. Set it to 10⁻⁶, which does no
   /// harm, if JJᵀ is singular at every pose, as for limbs that cannot leave a plane.
   double damping = 0;
 };

@@ -14,12 +14,11 @@ namespace etude {
 /// join. `old` and `next` contain the frames from the point on, at least one frame.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
-/// Returns the horizontal shift by which a new motion must be moved so that the velocity of the body's mass centre
-/// can change linearly over a join of `frames` frames. The mass centre then travels the mean of the two motions'
-/// velocities times the join's duration. If the join takes 2·√(height/gravity) seconds, a body that comes to rest
-/// stops over its capture point (Pratt et al. 2006). `left` is the old motion's frame at the transition point,
-/// `leaving` are two successive frames of the old motion there, and `arriving` are the new motion's last two frames
-/// of the join.
+/// Returns the horizontal shift by which a new motion must be moved so that the velocity of the body's centre of mass
+/// can change linearly over a join of `frames` frames. The centre of mass then travels the mean of the two motions'
+/// velocities times the join's duration. If the join takes 2·√(height/gravity) seconds, a body that comes to rest stops
+/// over its capture point (Pratt et al. 2006). `left` is the old motion's frame at the transition point, `leaving` are
+/// two successive frames of the old motion there, and `arriving` are the new motion's last two frames of the join.
 glm::dvec3 CarriedShift(const PosePair& leaving, const BodyPose& left, const PosePair& arriving, int frames);
 
 }  // namespace etude

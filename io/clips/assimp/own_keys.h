@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// What the curves of an FBX file state themselves.
+/// Properties of an FBX file that are read from its own curves.
 struct FbxOwnKeys {
   /// The times of all keys of a joint in a clip, by the names of clip and joint; "" for all joints of the clip.
   /// Ascending seconds from the beginning of the animation as assimp counts them.

@@ -28,9 +28,9 @@ inline aiQuaternion Mixed(const aiQuaternion& a, const aiQuaternion& b, ai_real 
 }
 
 /// Sets the times of an animation, whose time span PrepareTakes widened, to seconds from the beginning of the span the
-/// file states, and takes out keys outside of this span. If the file states no span, or if its span lies beside the
-/// keys, the times begin at the first key, and all keys stay. An animation whose span is not widened loses the keys
-/// before time 0.
+/// file states, and takes out keys outside of this span. If the file states no span, or if its span contains no key,
+/// the times begin at the first key, and all keys stay. An animation whose span is not widened loses the keys before
+/// time 0.
 void CutToSpan(aiAnimation& animation, FbxKeyFacts& facts);
 
 }  // namespace etude

@@ -32,7 +32,8 @@ Snapshot Example() {
 
 std::string Text() { return *WriteBaseline(Example()); }
 
-/// Returns the complaint about a text. A wrong seal is accepted, because the seal of an edited text is always wrong.
+/// Returns the error message about a text. A wrong seal is accepted, because the seal of an edited text is always
+/// wrong.
 std::string ComplaintAbout(const std::string& text) {
   return testing::Refusal(ReadBaseline(text, "b.json", BaselineSeal::kMayBreak));
 }

@@ -122,7 +122,7 @@ TEST(Snapshots, AreNotBetterByFewerJointsOrFrames) {
   const auto [share, of_frames] = moves_to(SnapshotOfFiles(30, 0.96, fewer_frames));
   EXPECT_EQ(share.movement, Movement::kWorse);
   EXPECT_EQ(of_frames.movement, Movement::kUndecided);
-  // Who answers more is not worse, either: values that are far worse do not count.
+  // A method that answers more is not worse, either: values that are far worse do not count.
   const SnapshotComparison more =
       CompareSnapshots(SnapshotOfFiles(40, 0.5, fewer_joints), SnapshotOfFiles(400, 1, all), {});
   EXPECT_EQ(more.moves[1].movement, Movement::kBetter);

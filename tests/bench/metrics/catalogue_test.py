@@ -31,7 +31,7 @@ metrics:
         tolerance: 1e-9
         source: "derived: 5 − 2"
 """
-# The replaced text, its replacement, and the complaint: its line and some of its words.
+# The replaced text, its replacement, and the error message: its line and some of its words.
 FAULTS = {
     "a broken document": ("domain: Tests", "domain: [Tests", 2, "not valid YAML"),
     "an unknown key": ("label: fault", "lable: fault", 6, "'label'"),

@@ -4,7 +4,7 @@
 namespace etude {
 namespace {
 
-// Each complaint gives file, line and column, the value found, and the allowed values.
+// Each error message gives file, line and column, the value found, and the allowed values.
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/scenario/complaints.txt", [](std::string text) {
     // " | NAME: TEXT" adds a further file. A text that includes other files is otherwise a complete scenario.

@@ -57,7 +57,7 @@ std::string Complete(const std::string& piece) {
   return whole;
 }
 
-/// Returns the complaint about the scenarios of a file, including the values of their task's keys.
+/// Returns the error message about the scenarios of a file, including the values of their task's keys.
 std::string ComplaintOfAll(const std::string& file, const SourceTexts& texts, const ClipLibrary& clips) {
   const auto scenarios = ParseScenarios(file, texts);
   if (!scenarios) return ToString(scenarios.error());

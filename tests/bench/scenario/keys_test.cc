@@ -14,7 +14,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-// An unknown key makes the complaint list all keys that were read.
+// An unknown key makes the error message list all keys that were read.
 constexpr const char* kNobodyKnows = "zzzz";
 
 using Names = std::set<std::string>;
@@ -25,7 +25,8 @@ Names NamesOf(const std::vector<KeyInfo>& keys) {
   return names;
 }
 
-/// Returns the keys that a complaint about kNobodyKnows lists as allowed; fails the test for any other complaint.
+/// Returns the keys that an error message about kNobodyKnows lists as allowed; fails the test for any other error
+/// message.
 Names AllowedBy(const std::string& complaint) {
   const std::string about = fmt::format("'{}'. Allowed: ", kNobodyKnows);
   const std::size_t at = complaint.find(about);
@@ -123,7 +124,7 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"inbetween", "filler: interpolation"},
                                     {"inbetween", "filler: inertialised"}};
 
-/// Returns the complaint of a task made from a condition and one method, without clips.
+/// Returns the error message of a task made from a condition and one method, without clips.
 std::string ComplaintOfTask(const TaskKind& kind, const std::string& condition, const std::string& method) {
   const auto mapping = ParseYaml(condition, "s.yaml");
   const auto entry = ParseYaml("{name: a" + (method.empty() ? "" : ", " + method) + "}", "s.yaml");

@@ -24,7 +24,7 @@ inline Scenario ParseOne(const std::string& yaml) {
   return scenarios->front();
 }
 
-/// Returns the complaint about an invalid text in one line; "" if the text is valid.
+/// Returns the error message about an invalid text in one line; "" if the text is valid.
 inline std::string Complaint(const std::string& yaml, const SourceTexts& more = {}) {
   const auto scenarios = Parse(yaml, more);
   const std::string complaint = scenarios ? "" : ToString(scenarios.error());

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Returns the complaint about "TASK | KEYS OF THE CONDITION | METHODS".
+/// Returns the error message about "TASK | KEYS OF THE CONDITION | METHODS".
 std::string ComplaintOfTask(const std::string& text, const ClipLibrary& clips) {
   const std::size_t first = text.find(" | "), last = text.rfind("| ");
   const TaskKind& kind = *FindTaskKind(text.substr(0, first));
@@ -16,7 +16,7 @@ std::string ComplaintOfTask(const std::string& text, const ClipLibrary& clips) {
       MakeTask(kind, "{" + text.substr(first + 3, last - first - 3) + "}", "[" + text.substr(last + 2) + "]", clips));
 }
 
-// Each complaint gives the value's place, what was found, and what is allowed or was probably meant.
+// Each error message gives the value's place, what was found, and what is allowed or was probably meant.
 TEST(Tasks, SayWhatTheyDoNotKnowAndWhereItStands) {
   ASSERT_OK(clips, LoadClips({"builtin:clap", "builtin:boxing", "builtin:sway", "builtin:side_kick"}, {}));
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/tasks/complaints.txt",

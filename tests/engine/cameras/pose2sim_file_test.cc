@@ -122,7 +122,7 @@ TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
   EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
 }
 
-/// Returns the names of a file's cameras, or the complaint about the file.
+/// Returns the names of a file's cameras, or the error message about the file.
 std::string NamesIn(const std::string& text) {
   const auto rig = ReadPose2SimCalibration(text);
   if (!rig) return ToString(rig.error());

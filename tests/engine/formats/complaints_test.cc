@@ -1,4 +1,4 @@
-// The complaints of file readers about texts with one damage, and how often they accept such texts.
+// The error messages of file readers about texts with one damage, and how often they accept such texts.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

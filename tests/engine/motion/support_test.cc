@@ -370,7 +370,7 @@ TEST(BalanceOffset, IsTheDistanceFromTheHullOfWhatBears) {
   const auto with = [](const BodyPose& pose, std::initializer_list<Role> roles) {
     return *BalanceOffset(pose, Set(roles));
   };
-  BodyPose spine;                 // the mass centre stays at the origin
+  BodyPose spine;                 // the centre of mass stays at the origin
   spine[kSpine] = {0.3, 0, 0.4};  // no segment ends at this joint
   EXPECT_NEAR(with(spine, {kSpine}), 0.5, 1e-12);
   EXPECT_NEAR(with(spine, {kSpine, kHead}), 0, 1e-12) << "a corner of the hull";

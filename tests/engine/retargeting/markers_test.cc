@@ -648,7 +648,7 @@ TEST(Markers, GapsAreBridgedAndLongOnesCutOff) {
   for (std::size_t t = 5; t < 20; ++t) flickering.frames[t][t % 2 == 0 ? wrist : knee].reset();
   ASSERT_OK(short_gaps, FindMarkerBodies(flickering, "a.trc"));
   EXPECT_EQ(short_gaps->front().Note(), "Etude's joints; 15 positions interpolated in gaps");
-  // Who also gets the positions as the file shows them need not doubt the others.
+  // A caller who also gets the positions in the file needs no doubt about the others.
   ASSERT_OK(shown, FindMarkerBodies(take, "a.trc", {.keeps_shown = true}));
   EXPECT_THAT(shown->front().doubts, ::testing::IsEmpty());
 }

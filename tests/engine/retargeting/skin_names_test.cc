@@ -134,7 +134,7 @@ TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
   markers.push_back({"V_?Hip_JC", kLeftHip});
   ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
   EXPECT_LT(Furthest(bodies->front()).first, 0.02);
-  // What the user takes as joints stays where it is.
+  // Markers that the user takes as joints are not moved.
   markers.push_back({"?KneeCentre", kLeftKnee});
   ASSERT_OK(told, FindMarkerBodies(Take(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
   EXPECT_LT(glm::distance(told->front().motion.poses.front()[kLeftKnee],

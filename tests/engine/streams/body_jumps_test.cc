@@ -87,8 +87,8 @@ TEST(BodyJumps, ASprinterAndAPersonWhoComesBackDoNot) {
   EXPECT_FALSE(jumps.Take(frame));
 }
 
-/// Takes all lines; returns the remarks, and the complaint if there is one. The remarks that every stream of a Kinect
-/// without clock or tilt has are left out.
+/// Takes all lines; returns the remarks, and the error message if there is one. The remarks that every stream of a
+/// Kinect without clock or tilt has are left out.
 std::vector<std::string> LiveRemarks(const std::string& text, std::size_t& frames) {
   LiveStream live("-", {}, {});
   std::vector<SensedFrame> stream;

@@ -24,7 +24,7 @@ using testing::KinectV1Text;
 using testing::WavingMotion;
 using testing::WithClock;
 
-/// The frames after each line, and the complaint that ended the stream.
+/// The frames after each line, and the error message that ended the stream.
 struct Heard {
   std::vector<SensedFrame> frames;
   std::vector<std::size_t> known;  ///< number of frames after each line

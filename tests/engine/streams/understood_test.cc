@@ -1,4 +1,5 @@
-// How texts of skeletons are interpreted: format, rate, level and floor, or the complaint; read as a whole and live.
+// How texts of skeletons are interpreted: format, rate, level and floor, or the error message; read as a whole and
+// live.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -28,7 +28,7 @@ NamedStream Take(const std::string& file, const SkeletonStream& stream, const st
 
 class EqualStreams : public ::testing::Test {
  protected:
-  /// Leaves out the copies; returns their complaints, or the error.
+  /// Leaves out the copies. Returns the message about each copy, or the error.
   std::string LeaveOut() {
     const auto copies = LeaveOutCopies(streams_, parts_);
     if (!copies) return "refused: " + ToString(copies.error());

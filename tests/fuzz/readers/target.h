@@ -9,7 +9,7 @@
 
 namespace etude::fuzz {
 
-/// The file name in complaints.
+/// The file name in error messages.
 inline const std::string kFile = "fuzzed";
 
 struct Target {

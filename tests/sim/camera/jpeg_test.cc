@@ -119,7 +119,7 @@ TEST(Jpeg, RefusesWhatIsDamagedOrTooLarge) {
     ASSERT_FALSE(read) << size;
     EXPECT_NE(ToString(read.error()).find("a damaged JPEG picture: "), std::string::npos);
   }
-  // Every byte of the head, and many others, are changed: the result is a picture or a complaint, never a crash.
+  // Every byte of the head, and many others, are changed: the result is a picture or an error message, never a crash.
   for (std::size_t at = 0; at < jpeg.size(); at += at < 700 ? 1 : 7) {
     for (const char other : {'\0', '\x7f', '\xff'}) {
       std::string changed = jpeg;

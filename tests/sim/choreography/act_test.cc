@@ -141,7 +141,7 @@ TEST(BuiltinActs, NeverMoveFasterThanADancerNorSlideOnAStandingFoot) {
   }
 }
 
-// What makes each act recognisable, measured on its joints.
+// The features by which each act is recognised, measured on its joints.
 
 TEST(BuiltinActs, DozeWithTheHeadOnTheChestAndWakeWithTheHandsAboveIt) {
   const BodyPose asleep = Load("doze").motion.poses.front();

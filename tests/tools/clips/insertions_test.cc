@@ -121,8 +121,8 @@ std::optional<Inserted> Pop(BodyMotion& motion, RandomStream& dice) {
   return Between(motion, window->first, window->first, is_left ? kLeftWrist : kRightWrist, 0.5);
 }
 
-/// Returns true if the body flies: for 0.2 s both ankles are 10 cm above their rest, and the mass centre falls at about
-/// the acceleration of gravity.
+/// Returns true if the body flies: for 0.2 s both ankles are 10 cm above their rest, and the centre of mass falls at
+/// about the acceleration of gravity.
 bool Flies(const BodyMotion& motion) {
   std::vector<double> ankles;
   for (const BodyPose& pose : motion.poses) ankles.push_back(std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y));

@@ -21,7 +21,7 @@ FEWEST_OF_A_FLIGHT = 5
 FLOATING_FRAMES = 4
 JUDGED_S = 1.2
 GLIDING = 3
-FALLING_S = 0.1  # step of the second difference that decides whether a clip's mass centre falls freely (s)
+FALLING_S = 0.1  # step of the second difference that decides whether a clip's centre of mass falls freely (s)
 
 # Dempster's table (Winter 2009, table 4.1): mass, and the centre's position on the way from the first joint to the
 # second, as shares.

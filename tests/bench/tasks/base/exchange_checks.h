@@ -41,14 +41,15 @@ inline std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
   return judged ? "no complaint" : judged.error().message;
 }
 
-/// Returns the complaint about a good answer after the value at `pointer` ("/events/2/score") was replaced by `value`.
+/// Returns the error message about a good answer after the value at `pointer` ("/events/2/score") was replaced by
+/// `value`.
 inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* pointer, const Json& value) {
   answer[Json::json_pointer(pointer)] = value;
   return ComplaintAbout(world, answer);
 }
 
-/// Returns the complaint about a changed answer. `edit` is "PLACE = VALUE" or "PLACE erased", which changes the good
-/// `answer`, or it is another answer in JSON.
+/// Returns the error message about a changed answer. `edit` is "PLACE = VALUE" or "PLACE erased", which changes the
+/// good `answer`, or it is another answer in JSON.
 inline std::string ComplaintOfEdit(TaskWorld& world, Json answer, const std::string& edit) {
   if (!edit.starts_with('/')) return ComplaintAbout(world, Json::parse(edit));
   const std::size_t end = edit.find(' ');

@@ -24,8 +24,8 @@ using testing::Replaced;
 using testing::SmallBinary;
 using ::testing::StartsWith;
 
-/// A change of kSmallGltf that tinygltf or the JSON parser refuses, and the complaint in their words. The complaints in
-/// Etude's own words are in broken.txt.
+/// A change of kSmallGltf that tinygltf or the JSON parser refuses, and the error message in their words. The error
+/// messages in Etude's own words are in broken.txt.
 struct BrokenText {
   const char* what;
   const char* from;

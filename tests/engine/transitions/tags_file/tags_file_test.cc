@@ -115,7 +115,7 @@ TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
 }
 
 TEST(TagsFile, GivesLibxml2sWordsUpTo500Bytes) {
-  // The complaint contains the value found, so a letter more makes it longer by one.
+  // The error message contains the value found, so a letter more makes it longer by one.
   const std::string text = SomeText();
   const auto complaint = [&](std::size_t letters) {
     return Complaint(Replaced(text, "RH=\"mid\"", "RH=\"" + std::string(letters, 'x') + "\"")).message;
