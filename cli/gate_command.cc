@@ -186,7 +186,7 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    // Refuse to overwrite a file that is no baseline.
+    // Refuse to overwrite a file that is not a baseline.
     ASSIGN_OR_RETURN(before, TakeBaseline(options.baseline, Sealing::kIgnored));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));

@@ -75,7 +75,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   return {};
 }
 
-/// Fails if a folder that was given as a shard is no shard; names the shards that it contains.
+/// Fails if a folder that was given as a shard is not a shard; names the shards that it contains.
 Result<void> RequireNoFolderOfShards(const fs::path& folder) {
   if (Exists(Inside(folder) / kJournalFile) || Exists(Inside(folder) / "manifest.json")) return {};
   std::vector<std::string> shards;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes";
 
-/// Returns the first 16 digits of a key's digest, which suffice to tell keys apart.
+/// Returns the first 16 digits of a key's digest, which suffice to distinguish keys.
 std::string Short(const Seed& seed) { return seed.Digest().substr(0, 16) + "…"; }
 
 Result<Words256> ParseKey(std::string_view bytes) {

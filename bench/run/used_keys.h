@@ -32,8 +32,8 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
 
 /// Adds a use to the list after checking again, because two runs may begin at the same time. When this function
 /// succeeds, the list is on the disk. With `may_be_used`, nothing is checked. With `may_be_used`, or if the command
-/// resumes or repeats a run, a use that is already listed is not added again, and a list that cannot be written is no
-/// error.
+/// resumes or repeats a run, a use that is already listed is not added again, and a list that cannot be written is not
+/// an error.
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
 
 /// Adds the use by a replay to the list of the key's uses, unless the list already contains a use of this key. A replay

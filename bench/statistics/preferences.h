@@ -29,7 +29,7 @@ struct PreferredMethod {
 };
 
 /// How often the film with the better value of a metric is the film that more raters prefer. A pair counts if one side
-/// has more votes than the other (the answer "no difference" is no vote) and the metric's two values differ.
+/// has more votes than the other (the answer "no difference" is not a vote) and the metric's two values differ.
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;

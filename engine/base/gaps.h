@@ -7,7 +7,8 @@ namespace etude {
 
 /// Calls `fill(from, at, to, share)` for each frame `at` of each gap of at most `max_gap` frames: `from` and `to` are
 /// the frames before and after the gap, and `share` rises from 0 at `from` to 1 at `to`. `is_known(frame)` returns
-/// false in gaps. The frames before the first known one and after the last are no gaps. Returns the number of calls.
+/// false in gaps. The frames before the first known one and after the last one are not gaps. Returns the number of
+/// calls.
 template <typename IsKnown, typename Fill>
 int FillGaps(std::size_t frames, std::size_t max_gap, const IsKnown& is_known, const Fill& fill) {
   int filled = 0;

@@ -65,7 +65,7 @@ struct RobustOptions {
 
 struct RobustPoint {
   glm::dvec3 position{0};      ///< p_WQ, metres
-  std::vector<bool> agrees{};  ///< for each sighting: true if it is no outlier
+  std::vector<bool> agrees{};  ///< for each sighting: true if it is not an outlier
   double residual_px = 0;      ///< weighted root mean square distance of the agreeing sightings
 };
 

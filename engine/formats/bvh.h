@@ -17,9 +17,8 @@ namespace etude {
 /// - joints without channels;
 /// - "End Site"s, which become joints named "<parent>_End" (names that some exporters give them are ignored);
 /// - names with spaces and colons, keywords in any case, tabs, empty lines, line ends LF, CR LF or CR, a missing last
-///   line end, a byte order mark.
-/// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
-/// number is rounded to it, because files print few digits (.0083333 means 120 Hz).
+///   line end, a byte order mark. A name that occurs again becomes "<name>#2", so that joints can be distinguished. A
+///   rate within 0.01 % of a whole number is rounded to it, because files print few digits (.0083333 means 120 Hz).
 ///
 /// `remarks` receives a sentence about each of these cases:
 /// - If the file has one frame more than announced, that frame is dropped, because some exporters announce the number

@@ -206,8 +206,8 @@ std::string DescribeRoughTime(const Token& printed, double seconds, double frame
   if (point == std::string_view::npos || printed.text.find_first_of("eE") != std::string_view::npos) return "";
   const double rate = RateOf(seconds);
   double digit = 1;  // the value of 1 in the last place
-  // Zeros at the end are no digits, because "%f" prints 0.033 as 0.033000, unless the rate is whole: 0.008000 is 125
-  // Hz.
+  // Zeros at the end do not count as digits, because "%f" prints 0.033 as 0.033000, unless the rate is whole: 0.008000
+  // is 125 Hz.
   const bool is_whole = std::abs(rate - std::round(rate)) < 1e-6 * rate;
   const std::size_t end = is_whole ? printed.text.size() : printed.text.find_last_not_of('0') + 1;
   for (std::size_t i = point + 1; i < end; ++i) digit /= 10;

@@ -193,7 +193,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   }
   read.markers.sizes_m = BodySizes(parameters);
 
-  // Leave out the points that are no positions.
+  // Leave out the points that are not positions.
   const std::set<std::string> others = LabelsOfOtherQuantities(parameters);
   std::vector<std::size_t> kept;
   for (std::size_t point = 0; point < layout.points; ++point) {

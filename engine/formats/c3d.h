@@ -26,10 +26,11 @@ bool IsC3d(std::string_view bytes);
 /// LONG_FRAMES). POINT:FRAMES is the number of frames; without it, TRIAL or the header states it. The markers' `remark`
 /// states if data follow the last frame, if these numbers differ, or if the header's rate differs from POINT:RATE.
 /// Points that are listed as angles, forces, moments, powers, scalars or reactions (POINT:ANGLES … and lists of such a
-/// type in POINT:TYPE_GROUPS) are no positions and are left out. A point with a negative residual or without finite coordinates counts as not seen. Analogue channels,
-/// rotations and events are ignored. Joint widths, which Vicon writes in millimetres as PROCESSING:LKNEEWIDTH and so
-/// on, become the markers' `sizes_m`. Returns an error if the file is not C3D or is truncated, has no points
-/// or no rate, has a unit other than m, cm, mm, in, ft, or has more than 10,000 points or 10⁷ frames.
+/// type in POINT:TYPE_GROUPS) are not positions and are left out. A point with a negative residual or without finite
+/// coordinates counts as not seen. Analogue channels, rotations and events are ignored. Joint widths, which Vicon
+/// writes in millimetres as PROCESSING:LKNEEWIDTH and so on, become the markers' `sizes_m`. Returns an error if the
+/// file is not C3D or is truncated, has no points or no rate, has a unit other than m, cm, mm, in, ft, or has more than
+/// 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points

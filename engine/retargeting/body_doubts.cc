@@ -15,7 +15,8 @@
 namespace etude {
 namespace {
 
-/// Returns the faults of a motion in which joints may be missing. A gap, in which the last pose is kept, is no freeze.
+/// Returns the faults of a motion in which joints may be missing. A gap, in which the last pose is kept, is not a
+/// freeze.
 std::vector<MotionFault> FaultsIn(std::span<const JointPositions> frames, double rate_hz) {
   // A joint that is not seen stays where it was, or is put midway between others.
   BodyMotion body{.rate_hz = rate_hz, .poses = {}};

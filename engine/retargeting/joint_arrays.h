@@ -54,18 +54,18 @@ struct ArrayOptions {
   std::optional<double> rate_hz = {}, metres_per_unit = {};
   std::optional<UpAxis> up = {};
 };
-/// Reads positions from arrays like those of WriteBodyNpz: any joints, with their names in `names` (without names,
-/// the twenty roles); NaN where a joint was not seen. A joint named like a role plays that role, unless the names are
-/// those of a data set (FindDataSet). A joint named pelvis or hips plays the hip centre if no other joint does. The
-/// file states the rate (RateOfArrays) or the times of its frames in `times` or `timestamps` (also `time`, `t`, and
-/// with `_s`), or both; if they differ, the times are used (LayOnClock). It also states `unit` (metres per unit, or a
-/// text for ReadUnit; without it, the metre) and `up` ("z", otherwise Y, or as in JointsOfArray). Positions are
-/// converted to metres with Y up. If the user does not state the unit and, in the file's unit, the joints extend over
-/// less than 0.3 m or more than 4 m in the median frame, the unit is taken to be the metre, centimetre or millimetre,
-/// whichever gives a person's size, and `notes` states this. Positions that stand for gaps count as not seen
-/// (RepairMarkers). Fails for a missing rate, times that are no clock, a wrong number of names, values beyond ±10⁹, and
-/// joints that extend over more than 4 m if none of these units gives a person's size; in a unit that the user states,
-/// over less than 0.1 m or more than 4 m.
+/// Reads positions from arrays like those of WriteBodyNpz: any joints, with their names in `names` (without names, the
+/// twenty roles); NaN where a joint was not seen. A joint named like a role plays that role, unless the names are those
+/// of a data set (FindDataSet). A joint named pelvis or hips plays the hip centre if no other joint does. The file
+/// states the rate (RateOfArrays) or the times of its frames in `times` or `timestamps` (also `time`, `t`, and with
+/// `_s`), or both; if they differ, the times are used (LayOnClock). It also states `unit` (metres per unit, or a text
+/// for ReadUnit; without it, the metre) and `up` ("z", otherwise Y, or as in JointsOfArray). Positions are converted to
+/// metres with Y up. If the user does not state the unit and, in the file's unit, the joints extend over less than 0.3
+/// m or more than 4 m in the median frame, the unit is taken to be the metre, centimetre or millimetre, whichever gives
+/// a person's size, and `notes` states this. Positions that stand for gaps count as not seen (RepairMarkers). Fails for
+/// a missing rate, unusable times (LayOnClock), a wrong number of names, values beyond ±10⁹, and joints that extend
+/// over more than 4 m if none of these units gives a person's size; in a unit that the user states, over less than 0.1
+/// m or more than 4 m.
 Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const ArrayOptions& told = {});
 /// Returns the twenty joints of a motion, whose joints may be in any order; nullopt if the motion has other joints or
 /// gaps.

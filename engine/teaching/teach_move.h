@@ -10,11 +10,11 @@ namespace etude {
 
 /// The options for finding key poses and tolerances.
 struct TeachOptions {
-  /// The range in degrees that an angle must cover in the move to be used in key poses (the feature Posture is no
-  /// angle; the same number applies to its values). The angle must also cover half the range of the angle that
-  /// changes most. With a smaller value than the default, sensor noise would count. If one angle of an arm is used,
-  /// all four angles of both arms are used, as in paper A's poses, because raising one arm is a different move from
-  /// raising both. If one angle of a leg is used, both angles of that leg are used.
+  /// The range in degrees that an angle must cover in the move to be used in key poses (the feature Posture is not an
+  /// angle; the same number applies to its values). The angle must also cover half the range of the angle that changes
+  /// most. With a smaller value than the default, sensor noise would count. If one angle of an arm is used, all four
+  /// angles of both arms are used, as in paper A's poses, because raising one arm is a different move from raising
+  /// both. If one angle of a leg is used, both angles of that leg are used.
   double least_range_deg = 25;
   /// The maximum number of key poses. The first is the pose farthest from the move's mean. Each further key pose is the
   /// pose farthest from the poses chosen so far; its distance must be at least half of the distance between the first

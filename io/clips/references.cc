@@ -55,7 +55,7 @@ std::vector<std::string> BuiltinsOf(const std::string& reference) {
 
 std::vector<std::string> FilesOf(const std::string& reference) {
   std::error_code ignored;
-  if (std::filesystem::exists(reference, ignored)) return {reference};  // an existing file's name is no pattern
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // an existing file's name is not a pattern
   if (const PackagedClips* package = FindPackage(reference)) {
     std::vector<std::string> files = FilesMatching(FileOf(reference));
     for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();

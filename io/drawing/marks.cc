@@ -55,7 +55,7 @@ std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, s
 }
 
 std::string_view MarkDashes(std::size_t method) {
-  // Dashes distinguish methods for readers who cannot tell the colours apart.
+  // Dashes distinguish methods for readers who cannot distinguish the colours.
   constexpr std::array<std::string_view, 4> kDashes{"", "", " stroke-dasharray=\"6 4\"", " stroke-dasharray=\"2 3\""};
   return method < 8 ? kDashes[method / 2] : " stroke-dasharray=\"10 3 2 3\"";
 }

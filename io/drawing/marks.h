@@ -48,7 +48,7 @@ std::string LineKeySvg(std::size_t method);
 /// Draws a mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 
-/// Computes a sideways offset for each mark of a row, so that neighbouring marks can be told apart. `positions` are
+/// Computes a sideways offset for each mark of a row, so that neighbouring marks can be distinguished. `positions` are
 /// along the row, in the panel's units; offsets are at most `max_offset` to either side. The same positions give the
 /// same offsets.
 std::vector<double> SwarmOffsets(const std::vector<double>& positions, double max_offset);

@@ -86,7 +86,7 @@ Answer ReadAnswer(std::FILE* file) {
   return answer;
 }
 
-/// Reads a ratio such as "60/1"; returns 0 if the text is no ratio.
+/// Reads a ratio such as "60/1"; returns 0 if the text is not a ratio.
 double RatioOf(const std::string& text) {
   const std::size_t slash = text.find('/');
   const double low = slash == std::string::npos ? 1 : NumberOf(text.substr(slash + 1));

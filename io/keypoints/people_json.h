@@ -21,7 +21,7 @@ const Json* FirstMember(const Json& json, std::initializer_list<const char*> nam
 /// Returns a text or a number; "" or nullopt if `json` is null or something else.
 std::string TextOf(const Json* json);
 std::optional<double> NumberOf(const Json* json);
-/// Returns the texts of a list; empty if `list` is no list. An entry that is no text becomes "".
+/// Returns the texts of a list; empty if `list` is not a list. An entry that is not a text becomes "".
 std::vector<std::string> TextsOf(const Json* list);
 
 /// The names that a file states for the keypoints of a person, in their order.

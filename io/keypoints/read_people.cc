@@ -248,7 +248,7 @@ std::string DoubtOf(const fs::path& path, const std::string& layout, const FilmO
 Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
   Result<PeopleOfFilm> film = ReadAs(path, layout, of);
   if (!film && layout.empty()) {
-    // The number of keypoints may fit two layouts, which the mid-hip tells apart.
+    // The number of keypoints may fit two layouts, which the mid-hip distinguishes.
     auto other = ReadAs(path, "body_25", of);
     if (other && HasMidHips(other->frames)) {
       other->Tell(

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Reads one recording or clip. A clip ("builtin:clap", a cell's motion in a run, or any motion file that is no
+/// Reads one recording or clip. A clip ("builtin:clap", a cell's motion in a run, or any motion file that is not a
 /// recording of a sensor) is converted to the recording of an error-free sensor. `clips` gives the options for opening
 /// clips.
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,

@@ -40,7 +40,7 @@ struct Fetcher {
 };
 
 /// Returns true if a URI names a picture. The parser requests pictures in the same way as buffers, so only the
-/// extension tells them apart.
+/// extension distinguishes them.
 bool IsPicture(const std::string& uri) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
   const std::string lower = InLowerCase(uri);
