@@ -106,7 +106,7 @@ class OrderedHelp : public CLI::Formatter {
     std::string text;
     if (option->get_type_size() != 0) {
       if (!option->get_type_name().empty()) text += " " + get_label(option->get_type_name());
-      // A default that the description states in words is not shown as a number, too, nor is an empty list.
+      // Do not show a default that the description already states in words, or an empty list.
       const std::string value = option->get_default_str();
       const bool is_stated =
           option->get_required() || option->get_description().find("(default: ") != std::string::npos;

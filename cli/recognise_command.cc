@@ -162,7 +162,7 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
   const auto right = std::ranges::count_if(performances, &JudgedEvent::is_right);
   const auto called = std::ranges::count_if(performances, &JudgedEvent::called_right);
   if (right == 0 || right == std::ssize(performances)) {
-    // Without right or without wrong performances, F1, precision and AUC say nothing.
+    // Without right or without wrong performances, F1, precision and AUC are meaningless.
     fmt::print(stderr, "{} performances; according to the labels, {} are right; the recogniser judged {} right\n",
                performances.size(), right == 0 ? "none" : "all", called);
   } else {

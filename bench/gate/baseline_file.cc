@@ -47,7 +47,7 @@ Json EncodeValues(const SnapshotValues& kept) {
 }
 
 /// Encodes what the cells were judged on: each list of parts once, and for each trial the number of its list, the rate
-/// and the shares; null for a trial that does not say it.
+/// and the shares; null for a trial that does not state them.
 Json EncodeJudgedCells(const std::vector<JudgedOn>& judged) {
   Json json{{"parts", Json::array()}, {"cells", Json::array()}};
   for (const JudgedOn& one : judged) {

@@ -41,7 +41,7 @@ const char* DensePeerFlags();
 /// The settings of the tree solvers of Orocos KDL. The defaults were the best settings of those tried (README.md).
 struct KdlSettings {
   double damping = 0.03;       ///< λ of the damped least-squares step (TreeIkSolverVel_wdls)
-  double position_weight = 5;  ///< weight of a metre against a radian
+  double position_weight = 5;  ///< weight of an error of 1 m relative to one of 1 rad
   int restarts = 0;            ///< number of restarts of the Newton solver, from poses around the start
   double max_turn = 0.6;       ///< largest change of an angle per step of the online solver, radians
 };

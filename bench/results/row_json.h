@@ -11,7 +11,7 @@ namespace etude {
 Json EncodeRow(const Row& row);
 Result<Row> DecodeRow(const Json& json, const Place& place);
 
-/// Encodes what a cell was judged on; an empty object if the task does not say it.
+/// Encodes the joints, rates and shares on which a cell was judged; an empty object if the task does not state them.
 Json EncodeJudged(const JudgedOn& judged);
 JudgedOn DecodeJudged(const Json& json);
 

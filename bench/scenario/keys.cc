@@ -156,7 +156,7 @@ Json TaskSchema(const TaskKind& kind) {
 /// Returns the schema of the common keys and, once the task is known, of the task's keys.
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
-  schema.erase("required");              // `defaults` may hold the required keys
+  schema.erase("required");              // required keys may be in `defaults` instead
   schema.erase("additionalProperties");  // tasks add keys of their own
   std::vector<KeyInfo> of_any_task;
   Json branches = Json::array();

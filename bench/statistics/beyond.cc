@@ -129,7 +129,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons) {
     }
   }
   // Values that are all −1, 0 or 1 are treated as those of a yes-or-no metric. If all are zero, the metric itself must
-  // be yes-or-no: an amount may have only zeros, too, but the interval of a share would have the wrong unit for it.
+  // be yes-or-no: an amount may also be zero everywhere, but the interval of a share has the wrong unit for an amount.
   const bool is_yes_or_no = (sample.yes_or_no || beyond.differing > 0) && std::ranges::all_of(values, [](double value) {
                               return std::abs(value) == 1 || value == 0;
                             });

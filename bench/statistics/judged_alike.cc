@@ -40,7 +40,8 @@ std::string OnlyIn(const std::vector<std::string>& one, const std::vector<std::s
   return only.empty() ? "" : fmt::format("only “{}” is judged on {}", name, Join(only));
 }
 
-/// Returns the share of what was judged of either method that was judged of only one; 1 if their roots differ.
+/// Returns the share that was judged for only one of the two methods, among the parts that were judged for at least
+/// one; 1 if their roots differ.
 double PartsApart(const std::vector<std::string>& one, const std::vector<std::string>& other) {
   std::size_t common = 0;
   bool same_root = true;

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// wins[i][j] is how often item i was preferred to item j; "no difference" is half a win for both.
+/// wins[i][j] is the number of times that item i was preferred to item j; "no difference" is half a win for both.
 using WinTable = std::vector<std::vector<double>>;
 
 /// Fits the model of Bradley and Terry (1952): i is preferred to j with probability s_i / (s_i + s_j). Returns the
@@ -28,8 +28,9 @@ struct PreferredMethod {
   std::optional<Interval> interval;  ///< resampled over raters; nullopt below kMinSample raters
 };
 
-/// How often the film with the better value of a metric is the film that more raters prefer. A pair counts if one side
-/// has more votes than the other (the answer "no difference" is not a vote) and the metric's two values differ.
+/// The agreement of a metric with the raters: how often more raters prefer the film with the better value of the
+/// metric. A pair counts if one side has more votes than the other (the answer "no difference" is not a vote) and the
+/// metric's two values differ.
 struct MetricAgreement {
   std::string metric;
   int agreed = 0, decided = 0;

@@ -26,7 +26,7 @@ class MethodColumns {
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
   /// Returns the trial's value of a metric; nothing if the trial's cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
-  /// Returns what the trial's value of a metric was measured on; nothing if the cell does not say it.
+  /// Returns what the trial's value of a metric was measured on; nothing if the cell does not state it.
   std::optional<JudgedPair::Side> JudgedAt(const std::string& metric, int trial) const;
   /// Returns all values of a metric in the order of trials. `missing` receives the number of cells without a value.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;

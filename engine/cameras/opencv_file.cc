@@ -156,7 +156,7 @@ Result<glm::dmat3> RotationOf(std::span<const double> n, std::string_view what) 
     return Fail({}, "{} has a number that is not finite", what);
   }
   if (n.size() == 3) {
-    // Programs write angles up to half a turn. A solver's iterations may exceed that, but hardly a whole turn.
+    // Programs write angles up to half a turn. A solver's result may exceed half a turn, but hardly a whole turn.
     const glm::dvec3 vector(n[0], n[1], n[2]);
     if (glm::length(vector) <= 2 * kPi) return MatrixOfRodrigues(vector);
     return Fail({}, "{} is a turn by {:.4g}; allowed: at most a whole turn, 6.283, in radians", what,

@@ -31,7 +31,7 @@ Result<double> NumberIn(const Node& node, Range range) {
 /// The largest number up to which a double holds every whole number.
 constexpr double kMaxExact = 0x1p53;
 
-/// Returns true if a text is a whole number that `number`, the double nearest to it, does not hold exactly.
+/// Returns true if `text` is a whole number that no double holds exactly; `number` is the nearest double.
 bool IsRounded(const std::string& text, double number) {
   std::uint64_t whole = 0;
   const char* end = text.data() + text.size();

@@ -305,7 +305,7 @@ class WholeBodyFollower final : public MoveFollower {
   std::vector<std::vector<ExampleDistance>> always_;  // for each move, one ExampleDistance per example
   std::vector<LatelyLowest> lately_;                  // for each move, its lowest distance in the last second
   std::vector<ExampleDistance> in_window_, images_;   // the asked move's examples, and their mirror images
-  double right_ = kInfinity, image_ = kInfinity;      // lowest distances of `in_window_` and `images_` in the window
+  double right_ = kInfinity, image_ = kInfinity;      // lowest in the window: to an example; to a mirror image
   double best_ = 0;                                   // evidence of the performance asked for
   std::vector<double> spotted_;
 };

@@ -93,7 +93,7 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
     const double length = glm::length(body);
     seen += std::isnan(length) ? 0 : 1;
     if (!std::isnan(length)) lengths.push_back(0.5 * length);
-    // The thighs of a person who sits are across, so trunk and shanks show the direction, too.
+    // The thighs of a person who sits are horizontal, so trunk and shanks also show the direction.
     const auto joint = [&](std::size_t i) { return positions[begin + seat[i]]; };
     const glm::dvec3 seated =
         has_seat ? place(0) + place(1) - joint(0) - joint(1) + place(2) + place(3) - joint(2) - joint(3) : body;

@@ -18,7 +18,7 @@ struct Named {
 struct PublishedNames {
   std::string_view data_set;
   std::vector<std::string_view> signs;
-  std::vector<Named> joints;  ///< the first names of a joint that the file has are used; other names mean what they say
+  std::vector<Named> joints;  ///< uses the first names that the file has; others keep their usual meaning
 };
 
 /// Returns the names in the data sets' published code. Sources: smplx (joint_names.py) and HumanML3D; I2L-MeshNet for
@@ -119,7 +119,7 @@ std::optional<DataSetJoints> FindDataSet(std::span<const std::string> names) {
     for (const std::string_view name : of) one.points.push_back(points.find(name)->second);
     if (one.points.size() > 1 || !is_used(one.points.front())) known.joints.push_back(std::move(one));
   };
-  // The data set's own names come first, then the common ones; all others mean what they say.
+  // The data set's own names come first, then the common ones; all other names keep their usual meaning.
   for (const auto* table : {&found->joints, &CommonNames()}) {
     for (const Named& one : *table) add(one.joint, one.names);
   }

@@ -149,8 +149,8 @@ std::optional<JointMapOverrides> RolesOfBones(const std::map<std::string, int>& 
   return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
 }
 
-/// Reads JSON files that describe a recording of Motion-BIDS (FindBidsFiles); files of higher folders come first, and
-/// state what the lower ones do not. Returns an object; an empty one if there is no file.
+/// Reads JSON files that describe a recording of Motion-BIDS (FindBidsFiles); files of higher folders come first; their
+/// values apply unless files of lower folders override them. Returns an object; an empty one if there is no file.
 Result<Json> ReadBidsJson(const std::vector<std::string>& files, CappedReader& reader) {
   Json all = Json::object();
   for (const std::string& file : files) {

@@ -18,7 +18,7 @@ struct FbxKeyFacts {
   /// curve is not straight.
   double longest_s = 0;
   double step_s = 0;     ///< the longest time, seconds, for which a stepped key holds the value of one axis
-  double turn_deg = 0;   ///< the largest change, 180° or more, of an angle between two keys that are not near; 0: none
+  double turn_deg = 0;   ///< largest change of an angle between two keys that are not near; 0 if none is 180° or more
   double cut_s = 0;      ///< the longest time, seconds, of keys that lie outside the time span of their animation
   int empty_spans = 0;   ///< animations whose time span contains none of their keys; all of their keys are used
 };

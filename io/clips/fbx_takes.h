@@ -14,8 +14,8 @@ inline constexpr double kFbxMarginS = 100'000;
 ///
 /// - Layers: layers that are muted or have weight 0 are taken out. Of the others, the first that moves joints stays,
 ///   together with layers of full weight that override it; the rest is taken out and reported.
-/// - Time spans (LocalStart to LocalStop): each is wider by kFbxMarginS on both sides, so that assimp keeps all keys
-///   and the span can be told from the animation's duration. If the file states only one end of a span, the span stays.
+/// - Time spans (LocalStart to LocalStop): each is wider by kFbxMarginS on both sides, so that assimp keeps all keys;
+///   the span then follows from the animation's duration. If the file states only one end of a span, the span stays.
 ///
 /// Returns the remarks. `changed` receives the new bytes, or "" if nothing changes.
 std::vector<std::string> PrepareTakes(std::string_view bytes, std::string& changed);

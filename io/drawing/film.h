@@ -133,8 +133,8 @@ class Scene {
   /// Returns a canvas of kFilmWidth × kFilmHeight. Frames are drawn in any order, and by copies of this process, so
   /// pictures must not depend on data that a scene keeps between frames.
   virtual Canvas Draw(int frame) = 0;
-  /// Returns the times at which a beat clicks, ascending, in seconds since the start of the film; empty for a silent
-  /// film.
+  /// Returns the times of the audible beats, ascending, in seconds since the start of the film; empty for a film
+  /// without sound.
   virtual std::vector<double> Beats() const { return {}; }
 };
 

@@ -27,9 +27,9 @@ std::optional<long> FrameNumber(const Json& id);
 /// - If the film's number of frames is unknown, numbers count from 0 or, if none is 0, from 1.
 /// - If all numbers are below the film's number of frames, they count from 0, or from 1 if none is 0 and `of.from_one`
 ///   is true; if the last one equals it, from 1.
-/// - If the numbers are higher, and the frames from the first number to the last, or every n-th of them, are as many as
-///   the film has, the first number is the film's first frame.
-/// Fails for other numbers. `told` says if the first number is an assumption.
+/// - If the numbers are higher, and all numbers from the first to the last, or every n-th of them, are as many as the
+///   film's frames, the first number belongs to the film's first frame. Fails for other numbers. `told` says if the
+///   first number is an assumption.
 Result<PeopleOfFilm> FilmOfNumbers(std::map<long, std::vector<SeenPerson>> numbered, const FilmOfKeypoints& of,
                                    const Place& place);
 

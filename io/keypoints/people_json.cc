@@ -34,8 +34,8 @@ Landmark AnkleOfFoot(const std::string& name) {
   return Landmark::kNoLandmark;
 }
 
-/// Finds the landmark of each name. A landmark that several names mean is given to none of them: such names are points
-/// of a hand or a face. `head` is not the top of the head if that has a name of its own, as in MPI-INF-3DHP.
+/// Finds the landmark of each name. A landmark that matches several names gets none of them, because such names are
+/// points of a hand or a face. `head` is not the top of the head if that has a name of its own, as in MPI-INF-3DHP.
 std::vector<Landmark> LandmarksOf(const std::vector<std::string>& names) {
   std::vector<Landmark> landmarks;
   for (const std::string& name : names) landmarks.push_back(LandmarkOfName(name));
@@ -216,8 +216,7 @@ Result<Keypoint> PointAt(const Json* x, const Json* y, const Json* sure, const P
   return Keypoint{glm::dvec2(*column, *row) + kHalfPixel, sure == nullptr ? 1 : confidence.value_or(0)};
 }
 
-/// Reads a point with named coordinates. Fails if a number beside the coordinates may be a score under a name that is
-/// not known.
+/// Reads a point with named coordinates. Fails if an additional number may be a score under an unknown name.
 Result<Keypoint> PointOf(const Json& json, const Place& place) {
   const Json* sure = FirstMember(json, {"visibility", "score", "confidence", "conf", "likelihood", "probability",
                                         "prob", "keypoint_score", "kp_score", "c", "p", "v", "visible"});

@@ -192,7 +192,7 @@ std::string FurtherSteps(const Judged& judged) {
     text += fmt::format(" Where both succeed ({}): {} {}{}.", Plural(both->pairs, "world"), words.label,
                         ShortDifference(*both->difference, words), interval);
   }
-  // If both methods have the same success in every world, success is not why the answer is undecided.
+  // If both methods have the same success in every world, success is not the reason why the answer is undecided.
   if (const auto& success = answer->success; success && !IsOfSuccess(judged) && success->ci_low &&
                                              success->differing > 0 && success->verdict == Verdict::kUndecided &&
                                              judged.Here() == Verdict::kUndecided) {

@@ -47,9 +47,9 @@ std::optional<Fault> FindFault(std::string_view name);
 /// Returns "none", or the names of the faults joined by "+": "amplitude+late".
 std::string FaultNames(const std::vector<GradedFault>& faults);
 
-/// The deviation of a performance from the meant performance: how the same person would perform the requested move with
-/// the same habits and the same random variation, but without faults. This deviation does not depend on the motion of
-/// other people, on taught clips, or on recognisers.
+/// The deviation of a performance from the intended performance, in which the same person performs the requested move
+/// with the same habits and the same random variation, but without faults. This deviation does not depend on the motion
+/// of other people, on taught clips, or on recognisers.
 struct Stray {
   /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
   /// between the limb's danced direction and its meant direction. Poses are compared at equal shares of the

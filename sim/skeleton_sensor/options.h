@@ -127,7 +127,7 @@ struct SkeletonSensorOptions {
   int longest_episode = 40;
   double nearest_guess_m = 0.2;  ///< smallest and largest error of a wrong guess for a hand or foot
   double farthest_guess_m = 1.1;
-  double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; a right guess errs like a seen joint (ours)
+  double wrong_guess_chance = 0.6;  ///< probability of a wrong guess; a right one has a seen joint's error (ours)
 
   double dropout_share = 0.02;    ///< share of all frames in which the whole body is lost
   double swaps_per_minute = 1.0;  ///< rate in profile; a swap exchanges left and right arms or legs for 1/3 s (ours)

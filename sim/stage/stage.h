@@ -87,7 +87,8 @@ class StagedRoom {
   /// time.
   double FlickerAt(double seconds) const;
 
-  /// The background picture is taken at this time, seconds: before the take, when all moving objects are elsewhere.
+  /// The time of the background picture, seconds. It is before the take, when all moving objects are at other
+  /// positions.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:

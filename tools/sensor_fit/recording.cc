@@ -170,8 +170,8 @@ struct LaidCsv {
   std::vector<double> late_s;  ///< JointRecording::late_s
 };
 
-/// Reads a joint CSV. With `rate_hz`, the times only say which rows are missing; if they cannot be used, frame numbers
-/// say it. If `keeps_rows` is true, each frame is one of the file's rows; otherwise rows are interpolated.
+/// Reads a joint CSV. With `rate_hz`, the times only show which rows are missing; if they cannot be used, the frame
+/// numbers show this. If `keeps_rows` is true, each frame is one of the file's rows; otherwise rows are interpolated.
 Result<LaidCsv> ReadLaidCsv(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                             bool keeps_rows) {
   ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));

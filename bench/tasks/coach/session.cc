@@ -39,7 +39,7 @@ class Loop {
       const SensedFrame seen = parts_.sees_truth ? AsDanced(frame_) : sensed;
       shown_ = coach_->Next(seen, Told());
       log_.sensed.frames.push_back(seen);
-      // Log the frame, and let the music go on.
+      // Log the frame, and advance the music.
       Note();
       PlayMusic();
       if (shown_.mode == CoachMode::kStandby) DanceAgain();

@@ -36,8 +36,8 @@ StatedOffset OffsetOf(const RawMotion& truth, const RawMotion& answer) {
 }
 
 std::optional<TimeShift> FindLag(const JudgedSide& truth, const JudgedSide& answer, double start_s) {
-  // Move the answer to the truth's clock. Frames before the answer's beginning are added, so that the answer's end is
-  // kept.
+  // Move the answer to the truth's clock. Frames are added before the answer's first frame, so that the resampled
+  // answer still contains its last frames.
   const double rate_hz = answer.motion.rate_hz;
   const auto added = static_cast<std::size_t>(std::ceil(std::max(-start_s, 0.0) * rate_hz));
   RawMotion moved;

@@ -75,7 +75,7 @@ class Shares {
  public:
   explicit Shares(JudgedOn& judged) : judged_(judged) {}
 
-  /// Adds the share of the runs of `length` frames in `shown` that `both` has, too.
+  /// Adds the share of the runs of `length` frames in `shown` that are also in `both`.
   void Add(std::initializer_list<const char*> metrics, const Mask& both, const Mask& shown, std::size_t length = 1) {
     AddCounts(metrics, CountRuns(both, length), CountRuns(shown, length));
   }

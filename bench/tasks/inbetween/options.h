@@ -12,7 +12,7 @@ namespace etude {
 /// A condition of task inbetween. The defaults are those of LAFAN1's protocol.
 struct InbetweenOptions {
   std::vector<std::string> truth;     ///< files whose windows are judged
-  std::vector<std::string> training;  ///< training files: for L2P's deviations, the offsets, and the library of fillers
+  std::vector<std::string> training;  ///< files for the deviations of L2P, the offsets, and the library of fillers
   std::string people;                 ///< pattern for the person in a file's name, e.g. *_{person}; "" = each file is a
                                       ///< unit
   int window = 65, offset = 40;       ///< length of a window, and distance of successive windows, frames

@@ -156,7 +156,7 @@ class MotionGlb {
       const bool has_all = moved.mNumPositionKeys > 0 && moved.mNumRotationKeys > 0 && moved.mNumScalingKeys > 0;
       if (part == parts.end() || !has_all) continue;
       moved_parts[*part] = &moved;
-      // assimp adds constant tracks of one key at a time without meaning.
+      // assimp adds constant tracks with a single key, whose time has no meaning.
       const auto see = [&](const auto* keys, unsigned count) {
         for (unsigned k = 0; count > 1 && k < count; ++k) times.insert(keys[k].mTime);
       };
