@@ -13,7 +13,7 @@ constexpr int kBaselineSchema = 2;
 /// sets Snapshot::unsealed.
 constexpr int kUnsealedSchema = 1;
 
-/// What ReadBaseline does if a baseline does not match its seal, or has no seal.
+/// The action of ReadBaseline if a baseline does not match its seal, or has no seal.
 enum class BaselineSeal {
   kMustHold,  ///< ReadBaseline fails
   kMayBreak,  ///< ReadBaseline succeeds and sets Snapshot::unsealed

@@ -17,7 +17,7 @@ struct Rate {
   double low = 0, high = 1;
 };
 
-/// How often gates found one kind of injected change (statistical power).
+/// The statistical power of the gate: the share of gates that found one kind of injected change.
 struct PowerResult {
   std::string change;
   Rate found;

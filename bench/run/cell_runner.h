@@ -17,7 +17,7 @@ struct FinishedCell {
   CellUsage usage;
   /// False if the method has answered, but outside metric programs must still measure the answer (CellRunner::Measure).
   bool is_measured = true;
-  /// Why this machine could not run the method; such a cell gets no row. "" if the method ran.
+  /// The reason why this machine could not run the method; such a cell gets no row. "" if the method ran.
   std::string why_not_run = {};
 };
 
@@ -86,7 +86,7 @@ class CellRunner {
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;
   std::string why_not_run_;  ///< why this machine could not run the current cell; "" if it could
-  /// Why this machine could not build the world, so that no cell could be run; "" if it could.
+  /// The reason why this machine could not build the world, so that no cell could be run; "" if it could.
   std::string why_world_not_run_;
   CellUsage world_usage_;
   PeakMemory peak_memory_;

@@ -196,7 +196,7 @@ Result<void> RunFolder::Lock() {
       is_ours_ = false;
       return Fail({file.string()}, "is no file");
     }
-    // In a folder that this process cannot write, it needs no lock. The lock file of another user's run cannot be
+    // This process needs no lock in a folder that it cannot write. The lock file of another user's run cannot be
     // opened.
     if (lock_ < 0 && errno == EACCES && ::access(path_.c_str(), W_OK) == 0) {
       is_ours_ = false;

@@ -19,7 +19,7 @@ using WinTable = std::vector<std::vector<double>>;
 /// items.
 std::vector<double> FitBradleyTerry(const WinTable& wins);
 
-/// How often people prefer the films of a method.
+/// The preferences of people for the films of one method.
 struct PreferredMethod {
   std::string method;
   double wins = 0, answers = 0;

@@ -30,7 +30,7 @@ struct TunedSystem {
 /// leaves this to future work; the methods are Etude's). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
-/// How well a system separates close pairs of frames from other pairs.
+/// The quality with which a system separates close pairs of frames from other pairs.
 struct SystemScore {
   MatchScore at_threshold;    ///< the score at the threshold 0.4
   std::optional<double> auc;  ///< area under the curve over all thresholds; nullopt if all pairs are close, or none is

@@ -8,7 +8,7 @@ namespace {
 
 using enum Role;
 
-// Returns the point of the tree for every role. Every point but the spine's lies at an end of a limb.
+// Returns the point of the tree for every role. Every point except that of the spine is an end of a limb.
 std::array<TreePoint, kRoleCount> PaperRoles(const KinematicTree& tree, const LimbLengths& lengths) {
   std::array<TreePoint, kRoleCount> roles;
   for (std::size_t i = 0; i < tree.joints.size(); ++i) {

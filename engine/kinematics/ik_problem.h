@@ -26,7 +26,7 @@ enum class WeightRule {
   kWangChen,       ///< w_p = 0.0007 · `WangChenFactor`, w_o = 1 (Wang and Chen 1991)
 };
 
-/// How often a solver recomputes adaptive weights: once per sweep, joint, or degree of freedom.
+/// The interval at which a solver recomputes adaptive weights: once per sweep, joint, or degree of freedom.
 enum class WeightRefresh { kSweep, kJoint, kDof };
 
 /// Returns the names that scenario files use: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".

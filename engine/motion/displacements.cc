@@ -98,8 +98,8 @@ std::vector<FrameRange> GroupsOf(const std::vector<int>& frames) {
 }
 
 std::vector<FrameRange> FindFrozen(const BodyMotion& motion) {
-  // If the body is never nearly still elsewhere, this limit of the joints' mean speed replaces kAbrupt_m_s; metres per
-  // second.
+  // Limit of the joints' mean speed, metres per second. It replaces kAbrupt_m_s if the body is never nearly still
+  // elsewhere.
   constexpr double kNeverAsStill = 0.003;
   // The motion stops and starts gently if the speed next to a freeze is at most this fraction of the speed one frame
   // farther from the freeze.

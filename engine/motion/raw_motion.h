@@ -69,7 +69,7 @@ bool HasOwnRoot(const RawMotion& motion);
 glm::dvec3 NotSeen();
 inline bool IsSeen(const glm::dvec3& position) { return position.x == position.x; }
 
-/// How positions between two frames are interpolated.
+/// The interpolation of positions between two frames.
 enum class Inbetween {
   kLine,
   kCubic,  ///< a Catmull-Rom cubic through four frames; at an end or a gap, a parabola through three; else a line

@@ -18,12 +18,13 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 /// nullopt if there is no such unit.
 std::optional<double> UnitOfSpread(double spread);
 
-/// How a body stands in the array's axes; kNotTold if it stands along Y on its feet, or if its direction is not known.
+/// The direction of a standing body in the array's axes; kNotTold if it stands along Y on its feet, or if its direction
+/// is not known.
 enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
-/// Returns how the body stands. The direction from knees to shoulders decides, and for −Y also that of trunk and
-/// shanks, as in people who sit; it must be the same in at least three quarters of the frames that show these joints. A
-/// body that is upside down stands on its hands if a wrist is near the lowest joint in most frames and if that joint
-/// stays at one height.
+/// Returns the direction in which the body stands: from knees to shoulders. For −Y, trunk and shanks must have this
+/// direction, too (as in people who sit); it must be the same in at least three quarters of the frames that show these
+/// joints. A body that is upside down stands on its hands if a wrist is near the lowest joint in most frames and if
+/// that joint stays at one height.
 Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

@@ -57,7 +57,7 @@ class LiveStream {
   std::size_t frames_ = 0;
   double last_s_ = 0;
   bool has_gone_back_ = false, has_leapt_ = false, has_damage_ = false;
-  double shift_s_ = 0;                        // from the device's clock to the stream's times
+  double shift_s_ = 0;                        // converts the device's clock to the stream's times
   int damaged_ = 0;                           // number of damaged rows since the last good row
   std::array<bool, kRoleCount> elsewhere_{};  // joints that were not only at the origin (LeaveNoPlacesOut)
   BodyJumps jumps_;

@@ -139,7 +139,7 @@ void ScaleConfidences(double given_scale, PeopleOfFilm& film) {
                         largest, scale, is_given ? "the films' largest" : "their"));
 }
 
-/// How the coordinates of a film's keypoints are distributed.
+/// The distribution of the coordinates of a film's keypoints.
 struct KeypointRange {
   std::size_t confident = 0;  ///< number of keypoints that decide
   std::size_t shares = 0;     ///< those of them within ±1.1

@@ -137,7 +137,7 @@ def _npz(positions, names, rate_hz, said, title):
         rate_hz = array.array("d", [rate_hz])
     except TypeError:
         raise TypeError(f"rate_hz is {rate_hz!r}; allowed: a number") from None
-    if hasattr(positions, "filled"):  # numpy.ma
+    if hasattr(positions, "filled"):  # a masked array (numpy.ma)
         positions = positions.astype(float).filled(math.nan)
     if not len(positions) or any(len(frame) != len(names) or any(len(point) != 3 for point in frame) for frame in positions):
         shape = getattr(positions, "shape", None) or _shape(positions)

@@ -21,7 +21,7 @@
 namespace etude {
 namespace {
 
-/// How the viewer shows a track of a recording, and the tracks from which the track's error is measured.
+/// A track of a recording as the viewer shows it, and the tracks from which its error is measured.
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< label of the track; "" = the method's name

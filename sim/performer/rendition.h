@@ -66,7 +66,7 @@ class Rendition {
   /// Returns the time at which `share` is danced: the inverse of DancedShare.
   double DueOf(double share) const;
 
-  /// Computes the deviation from the meant performance. The deviation is zero without faults.
+  /// Computes the deviation from the intended performance. The deviation is zero without faults.
   Stray Strays() const;
 
  private:

@@ -11,7 +11,7 @@ namespace etude {
 std::size_t FillPhiloxBlocks(std::uint64_t first, std::uint64_t key0, std::uint64_t key1, std::size_t count,
                              std::uint64_t* out);
 
-/// How many numbers are below a range, and how many are within it.
+/// The number of values below a range, and the number of values within it.
 struct HalvesWithin {
   std::size_t below = 0, within = 0;
 };

@@ -19,7 +19,7 @@ struct SensorStatistics {
 
   ByGroup error_mm;                             ///< root mean square distance from the twin
   std::optional<double> shoulders_and_hips_mm;  ///< the same distance, of shoulders and hips together
-  std::optional<double> planted_feet_mm;        ///< the same, of ankles and feet slower than 0.1 m/s in the twin
+  std::optional<double> planted_feet_mm;        ///< as above, of ankles and feet slower than 0.1 m/s in the twin
   /// Standard deviation of the errors along the line of sight, divided by that along an axis across it.
   ByGroup depth_ratio;
   std::array<std::optional<double>, kBoneKindCount> correlation;  ///< correlation of the errors at a bone's two ends

@@ -38,7 +38,7 @@ struct StudioOptions {
   RigOptions rig = {};  ///< the places of the cameras
   PerformerFigure figure = PerformerFigure::kStaged;
   Clothes clothes = Clothes::kStudio;
-  /// How the room is furnished: 0 = the empty studio; 1 = a furnished room with moving people and things.
+  /// The furnishing of the room: 0 = the empty studio; 1 = a furnished room with moving people and things.
   /// sim/stage/README.md describes the values in between.
   double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness

@@ -14,8 +14,8 @@
 namespace etude::sim {
 
 struct StudioOptions {
-  /// How furnished the room is, 0 to 1. At 0 it is a bare studio with a person of capsules in warm colours; at 1 it is
-  /// a lived-in room with a dressed person.
+  /// The amount of furniture, 0 to 1. At 0 the room is a bare studio with a person made of capsules in warm colours; at
+  /// 1 it is a furnished room with a dressed person.
   double scene = 0;
   std::uint64_t seed = 1;  ///< seed of the room, the objects in the room and the person's clothes
 };
