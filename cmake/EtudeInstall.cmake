@@ -1,4 +1,4 @@
-# `cmake --install`, and packages (`cpack -G DEB`): the program, its modules, and the files that it finds beside itself
+# `cmake --install`, and packages (`cpack -G DEB`): the program, its modules, and the files that it finds next to itself
 # by name. The whole tree may be moved, because nothing in it contains the prefix.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

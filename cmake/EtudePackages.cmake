@@ -31,7 +31,7 @@ pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
-# Debian's Ceres package requires ATLAS beside LAPACK and BLAS, but does not use it.
+# Debian's Ceres package requires ATLAS in addition to LAPACK and BLAS, but does not use it.
 get_target_property(ceres_needs Ceres::ceres INTERFACE_LINK_LIBRARIES)
 list(FILTER ceres_needs EXCLUDE REGEX "lib(f77blas|atlas)[.]")
 set_target_properties(Ceres::ceres PROPERTIES INTERFACE_LINK_LIBRARIES "${ceres_needs}")

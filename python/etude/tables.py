@@ -25,7 +25,7 @@ class Column(collections.abc.Sequence):
     """The values of one column, one per row. As an item, a missing value is None; in `values` and in arrays, it is NaN.
 
     values: a numpy array if numpy is installed, else an array of the standard library or a list. metric: the column's
-    etude.catalogue.Metric, or None if the column is no metric. unit, definition: of the metric, else "".
+    etude.catalogue.Metric, or None if the column is not a metric. unit, definition: of the metric, else "".
     """
 
     def __init__(self, name, values, metric=None):
