@@ -33,7 +33,7 @@ std::string NoteOnMissing(const Comparison& c) {
 }
 
 /// Returns true if the numbers of worlds in which only one method has a value differ by more than chance (McNemar's
-/// mid-p). Methods of which one loses values are not equal, even if their other values are.
+/// mid-p). Two methods are not equal if one of them loses values, even if their other values are equal.
 bool LosesValues(const Comparison& c, double alpha = kAlpha) {
   return McNemarMidP(c.only_method, c.only_baseline) <= alpha;
 }
@@ -222,7 +222,7 @@ Finding JudgeComparison(const Expectation& expectation, const ConditionTable& ta
     with_failures->not_alike = worlds.not_alike;
   }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
-  // As in JudgeFamily, methods of which one loses values are not equal.
+  // As in JudgeFamily, two methods are not equal if one of them loses values.
   found.baseline = other;
   found.method = expectation.of;
   found.only_baseline = worlds.only_baseline;

@@ -41,7 +41,7 @@ std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<Con
 /// Judges one expectation over every condition that it names. A comparison (below, above) is met if, in every such
 /// condition, the paired verdict at the expectation's confidence agrees with the expectation. It is unmet if the
 /// verdict is the opposite or "no difference" in one of the conditions, and otherwise undecided. "No difference"
-/// between methods of which one loses values is undecided, as in JudgeFamily. Because every condition must hold, no
+/// becomes undecided if one of the two methods loses values, as in JudgeFamily. Because every condition must hold, no
 /// correction for multiple conditions is needed (intersection–union test, Berger 1982). A bound (at_most, at_least) is
 /// compared with the statistic itself. If some cells have no value, a bound that the other cells meet is undecided. If
 /// the expectation says that the method is better in the value metric (ValueMetricOf), worse success also makes the

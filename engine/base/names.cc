@@ -52,8 +52,8 @@ constexpr MarkedLetters kMarkedLetters[] = {
     {"\u0328", "AEIUaeiu", "ĄĘĮŲąęįų"},
 };
 
-/// Returns the text with one character for each of these letters with a mark (Unicode's form NFC), where it has two
-/// (NFD, as macOS writes names of files).
+/// Returns the text with each of these accented letters as one character (Unicode's form NFC), even if the text has it
+/// as two (NFD, as in macOS's file names).
 std::string Composed(std::string_view text) {
   std::string composed;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -152,8 +152,8 @@ class DocumentCheck : public YAML::EventHandler {
   int values = 0;
 };
 
-/// Returns why a text has more than one document. YAML also ends a document before a line that is indented less than
-/// the document's first line.
+/// Returns the reason why a text has more than one document. YAML also ends a document before a line that is indented
+/// less than the document's first line.
 Error WhySecondDocument(std::string_view text, const std::string& file) {
   std::optional<std::size_t> first;  // the indentation of the first line
   int first_line = 0;

@@ -77,8 +77,9 @@ std::vector<std::string> FormsOf(std::string_view sdk_name) {
   return {plain};
 }
 
-/// Returns the joint that a heading's letters (without the axis) name: the one whose form is the longest in them, or
-/// whose form with l or r in place of the side is all of them. Returns nullopt if they name none.
+/// Returns the joint that a heading's letters (without the axis) name: the joint with the longest name that occurs in
+/// the letters, or whose name with l or r in place of the side equals the letters. Returns nullopt if the letters name
+/// no joint.
 std::optional<std::size_t> JointNamed(const std::string& letters, std::size_t joints) {
   const auto names = SdkNames(joints);
   std::optional<std::size_t> found;

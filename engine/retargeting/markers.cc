@@ -231,7 +231,7 @@ bool IsRelativeToHips(const std::vector<BodyPose>& poses) {
 }
 
 /// Adds a text about the positions that were interpolated in gaps. It is a doubt if the longest gap of a joint is long
-/// enough that the joint may have done something else, unless the caller also gets the positions without them
+/// enough that the joint may have done something else, unless the caller also gets the positions without interpolation
 /// (`keeps_shown`).
 void TellFilled(int filled, const FrameRange& longest, const MarkerMotion& markers, bool keeps_shown,
                 MarkerBody& body) {

@@ -100,7 +100,7 @@ class NamedMarkers {
   }
 
   /// Returns the key of the first of the names that exists on a side, or in the middle of the body; "" if none exists.
-  /// Of "waist/front", the word before the side must be "waist".
+  /// For "waist/front", the word before the side must be "waist".
   std::string Find(Words words, std::optional<Side> side) const {
     for (const std::string_view word : words) {
       const std::size_t slash = word.find('/');

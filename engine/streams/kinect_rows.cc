@@ -208,8 +208,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index) {
-  // Put a heading before the row, which tells the separator: otherwise ReadNumberRows would take a row that contains
-  // words for the heading and drop it.
+  // Put a heading before the row. The heading states the separator; without it, ReadNumberRows would take a row that
+  // contains words for the heading and drop the row.
   const std::string heading = recording.separator == 0 ? "row" : std::string("row") + recording.separator + "row";
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(heading + "\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);

@@ -202,8 +202,8 @@ std::vector<int> WithSidesExchanged(const JudgedSide& side) {
   return exchanged;
 }
 
-/// Returns true if the answer's hips lie the other way round than the truth's, frame by frame. `at(f)` is the answer's
-/// frame for frame f of the truth.
+/// Returns true if the answer's left and right hip are in the opposite order to the truth's hips, frame by frame.
+/// `at(f)` is the answer's frame for frame f of the truth.
 template <typename At>
 bool AreHipsOpposed(const RawMotion& truth, const RawMotion& answer, const At& at) {
   const auto across = [](const RawMotion& motion, std::size_t frame) {

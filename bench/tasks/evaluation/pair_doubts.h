@@ -17,7 +17,7 @@ namespace etude {
 /// - heading and size: if none of these, one rotation, displacement and size of all positions removes nine tenths of it
 ///   (if there is a doubt about one of the files, only with Y up in both);
 /// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large,
-///   and the hips lie the other way round than the truth's;
+///   and the answer's left and right hip are in the opposite order to the truth's hips;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
 ///   large. A shift has at least one frame and at most kMaxTimeShift_s, and FindLag must find a shift, too. If a lag
 ///   was already removed (`matched.lag`), neither sides nor times are searched.
