@@ -98,9 +98,9 @@ bool IsStraight(const BodyPose& pose, const glm::dvec3& up) {
          is_leg_straight(kLeftHip, kLeftKnee, kLeftAnkle) && is_leg_straight(kRightHip, kRightKnee, kRightAnkle);
 }
 
-/// Returns true if the body sits upright: trunk and shanks along `up`, thighs across, and both ankles at one height. A
-/// body that lies on its back or on one side with hips and knees at right angles has the same shape, and so has a body
-/// that crawls (IsPropped).
+/// Returns true if the body sits upright: trunk and shanks along `up`, thighs perpendicular to it, and both ankles at
+/// one height. A body that lies on its back or on one side with hips and knees at right angles has the same shape, and
+/// so has a body that crawls (IsPropped).
 bool IsSeated(const BodyPose& pose, const glm::dvec3& up, double stature) {
   constexpr double kAlong = 0.7, kAcross = 0.5, kLevel = 0.05;
   const glm::dvec3 knees = pose[kLeftKnee] + pose[kRightKnee];

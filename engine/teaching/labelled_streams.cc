@@ -93,8 +93,8 @@ int FirstSeen(const SkeletonStream& stream) {
   return first == stream.frames.end() ? 0 : static_cast<int>(first - stream.frames.begin());
 }
 
-/// Describes what the labels' authors may not have meant: two right performances of different moves of which more than
-/// half of the longer one is the same time, and names of moves that differ in case only.
+/// Describes labels that may be mistakes: two right performances of different moves that overlap by more than half of
+/// the longer one, and names of moves that differ only in case.
 std::vector<std::string> DoubtMoves(const std::vector<Label>& labels, const std::string& file) {
   std::vector<std::string> doubts;
   std::map<std::string, std::string> names;  // each name of a move, by its lower-case form
