@@ -77,7 +77,7 @@ void PrintReport(const GateReport& report) {
   PrintList("Undecided, because the values cannot be compared:", NotAlikeLines(report.comparison));
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Methods whose settings in the scenario changed:", report.comparison.settings_changed);
-  PrintList("Methods without an answer in any cell:", report.silent);
+  PrintList("Without an answer or a value in any cell:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   if (!report.baseline_version.empty())
     PrintVersions("the baseline", report.baseline_version, "the run", report.program_version);
@@ -171,13 +171,16 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
 }
 
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
-  // Refuse to make a baseline from an incomplete run, or from a run that has a method without answers.
+  // Refuse to make a baseline from an incomplete run, or from a run with a method without answers, or an own metric
+  // without values.
   if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
     PrintList("No baseline was written, because the run is incomplete:", incomplete);
     return kIncompleteRun;
   }
-  if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
-    PrintList("No baseline was written. A method has no answer, and a later run could not be worse than that:", silent);
+  if (const auto silent = DescribeSilent(run); !silent.empty()) {
+    PrintList(
+        "No baseline was written. A method has no answer, or a metric no value, and a later run could not be worse:",
+        silent);
     return kRegression;
   }
   // Check that the new baseline can be read back, before the old baseline is replaced.

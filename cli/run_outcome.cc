@@ -13,6 +13,7 @@
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/gate.h"
+#include "bench/metrics/catalogue.h"
 #include "bench/model/reasons.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
@@ -125,12 +126,34 @@ std::string OthersInWords(const RunData& run) {
   return text;
 }
 
+/// Returns the metrics of the user's own that have no value, although cells are ok.
+std::vector<std::string> SilentMetrics(const ScenarioSummary& scenario) {
+  int ok = 0;
+  std::map<std::string, int> present;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      ok += method.ok;
+      for (const MetricSummary& metric : method.metrics) {
+        if (AddedMetrics().contains(metric.id)) present[metric.id] += metric.present;
+      }
+    }
+  }
+  std::vector<std::string> silent;
+  for (const auto& [id, count] : present) {
+    if (ok > 0 && count == 0) silent.push_back(id);
+  }
+  return silent;
+}
+
 void PrintSummary(const RunData& run) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     fmt::print("\n{} ({}): {}\n", scenario.name, scenario.task, scenario.question);
     PrintTables(scenario, run.rows);
     for (const ExpectationResult& expectation : scenario.expectations) {
       fmt::print("  {}: {} [{}]\n", ClaimOutcomeName(expectation.outcome), expectation.text, expectation.detail);
+    }
+    for (const std::string& metric : SilentMetrics(scenario)) {
+      fmt::print("  your metric {} has no value in any cell; `etude rows` shows the reasons\n", metric);
     }
   }
 }
@@ -268,7 +291,7 @@ int ShowOutcome(const RunOutcome& outcome) {
   if (has_silent) {
     const auto finished = LoadFinishedRun(outcome.folder);
     if (!finished) return Complain(finished.error());
-    PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
+    PrintList("\nMethods without an answer:", DescribeSilent(*finished));
   }
   const auto failures = FailuresIn(outcome.folder, *run);
   if (!failures) return Complain(failures.error());

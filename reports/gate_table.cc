@@ -381,7 +381,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   // Write how many expectations and comparisons were judged, and how many failed.
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**The run is incomplete**, so there is no overall verdict:", report.incomplete);
-  text += List("**Methods without an answer in any cell:**", report.silent);
+  text += List("**Without an answer or a value in any cell:**", report.silent);
   text += List("**Expectations and time rules that are not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
   text += List("**Verdicts that became worse** (a change from better to worse is a regression):", FallenLines(report));
   // Write the changed metrics. Changes that fail the gate are visible; all other changes are collapsed.
@@ -423,10 +423,10 @@ std::string WriteGateJunit(const GateReport& report) {
     return JunitCase{name, lines.empty() ? ClaimOutcome::kMet : ClaimOutcome::kUnmet,
                      fmt::format("{}\n", fmt::join(lines, "\n"))};
   };
-  std::vector<JunitSuite> suites = {
-      {"gate",
-       {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent),
-        empty("no verdict changed from better to worse", FallenLines(report, true))}}};
+  std::vector<JunitSuite> suites = {{"gate",
+                                     {empty("every cell can be judged", report.incomplete),
+                                      empty("every method has an answer, and every metric a value", report.silent),
+                                      empty("no verdict changed from better to worse", FallenLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "bench/metrics/catalogue.h"
 #include "bench/model/reasons.h"
 #include "bench/statistics/bootstrap.h"
 #include "engine/base/order_statistics.h"
@@ -122,37 +124,67 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   return sentences;
 }
 
-std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
-  struct Cells {
-    int attempted = 0;
-    bool has_answer = false;
-    std::string first;
-    ReasonCounts causes;
-  };
-  constexpr std::size_t kMaxKeptCauses = 1000, kMaxShownCauses = 3;
-  // Collect the reasons why cells have no answer, by scenario and method.
-  std::map<std::pair<std::string, std::string>, Cells> methods;
+namespace {
+
+/// The cells of one method, or of one metric.
+struct SilentCells {
+  int attempted = 0;
+  bool has_answer = false;
+  std::string first;
+  ReasonCounts causes;
+
+  void Add(const Row& row, bool answers, const std::string& reason, const std::string& before) {
+    constexpr std::size_t kMaxKeptCauses = 1000;
+    has_answer |= answers;
+    if (attempted++ == 0) first = row.Id();
+    if (!has_answer && causes.size() < kMaxKeptCauses) causes.Add(reason, before);
+  }
+
+  /// Returns "; the first cell is ..." with the most frequent reasons.
+  std::string Details() const {
+    constexpr std::size_t kMaxShownCauses = 3;
+    const std::vector<CountedReason> most = causes.MostFrequentFirst();
+    std::string text = "; the first cell is " + first;
+    for (std::size_t i = 0; i < std::min(most.size(), kMaxShownCauses); ++i) {
+      text += fmt::format("; {} × {}", most[i].cells, most[i].Words());
+    }
+    return most.size() > kMaxShownCauses ? text + "; and others" : text;
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> DescribeSilent(const FinishedRun& run) {
+  // List the own metrics that the gate judges: all of a scenario, unless its gate names metrics.
+  std::map<std::string, std::set<std::string>> judged;
+  for (const FinishedScenario& scenario : run.scenarios) {
+    const std::vector<std::string>& named = scenario.study.gate.metrics;
+    for (const auto& [id, metric] : AddedMetrics()) {
+      if (named.empty() || std::ranges::find(named, id) != named.end()) judged[scenario.study.name].insert(id);
+    }
+  }
+  // Collect the reasons why cells have no answer, and why cells with an answer have no value of an own metric.
+  std::map<std::pair<std::string, std::string>, SilentCells> methods, metrics;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     const CellResult& result = row.result;
     if (result.status == Status::kSkipped) return;
-    Cells& cells = methods[{row.scenario, row.method}];
-    cells.has_answer |= HasAnswer(result);
-    if (cells.attempted++ == 0) cells.first = row.Id();
-    if (cells.has_answer || cells.causes.size() == kMaxKeptCauses) return;
-    cells.causes.Add(result.reason, fmt::format("{}: ", StatusName(result.status)));
+    methods[{row.scenario, row.method}].Add(row, HasAnswer(result), result.reason,
+                                            fmt::format("{}: ", StatusName(result.status)));
+    for (const MetricValue& metric : result.metrics) {
+      if (!judged[row.scenario].contains(metric.id)) continue;
+      metrics[{row.scenario, metric.id}].Add(row, metric.value.has_value(), metric.null_reason, "");
+    }
   });
-  // For each method without any answer, write its most frequent reasons.
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
-    const std::vector<CountedReason> causes = cells.causes.MostFrequentFirst();
-    std::string text = fmt::format("{}: none of the {} cells of {} has an answer; the first cell is {}", name.first,
-                                   cells.attempted, name.second, cells.first);
-    for (std::size_t i = 0; i < std::min(causes.size(), kMaxShownCauses); ++i) {
-      text += fmt::format("; {} × {}", causes[i].cells, causes[i].Words());
-    }
-    if (causes.size() > kMaxShownCauses) text += "; and others";
-    sentences.push_back(std::move(text));
+    sentences.push_back(fmt::format("{}: none of the {} cells of {} has an answer{}", name.first, cells.attempted,
+                                    name.second, cells.Details()));
+  }
+  for (const auto& [name, cells] : metrics) {
+    if (cells.has_answer) continue;
+    sentences.push_back(fmt::format("{}: none of the {} cells with an answer has a value of your metric {}{}",
+                                    name.first, cells.attempted, name.second, cells.Details()));
   }
   return sentences;
 }
@@ -173,9 +205,9 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
     }
   }
   if (!report.incomplete.empty()) return report;
-  // Find the cells that prevent a verdict, and the methods without any answer.
+  // Find the cells that prevent a verdict, the methods without any answer, and own metrics without any value.
   report.incomplete = WhyIncomplete(run);
-  report.silent = DescribeSilentMethods(run);
+  report.silent = DescribeSilent(run);
   for (const FinishedScenario& scenario : run.scenarios) {
     for (const ComparedMethod& method : scenario.study.methods) report.runs_programs |= method.settings.empty();
   }

@@ -80,9 +80,10 @@ TailRules TailRulesOf(const FinishedRun& run);
 /// memory).
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
-/// Returns one sentence for each method that has no answer (status ok or unsolved) in any cell. The sentence gives the
-/// most frequent reasons. A method whose cells were all skipped is left out.
-std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
+/// Returns one sentence for each method that has no answer (status ok or unsolved) in any cell, and for each metric of
+/// the user's own (AddedMetrics) that the gate judges and that has no value in any cell with an answer. The sentence
+/// gives the most frequent reasons. A method whose cells were all skipped is left out.
+std::vector<std::string> DescribeSilent(const FinishedRun& run);
 
 /// Returns true if the change of this metric makes the gate fail.
 bool IsRegression(const MetricMove& move);

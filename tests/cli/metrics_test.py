@@ -326,6 +326,15 @@ class OwnMetrics(EtudeCase):
                      f"  - {{scenario: y, question: why, metrics: [{{name: twice, {program}, unit: mm}}]}}\n",
                      "the metric 'twice' has two different definitions: unit '' and 'mm'", "refused.yaml:4:")
 
+    def test_one_without_any_value_is_told_and_makes_no_baseline(self):
+        silent, baseline = self.folder / "silent", self.folder / "silent.json"
+        told = self.ends(0, "run", self.write("silent.yaml", self.text(own("absent", "absent"))), "-o", silent, *FEW).stdout
+        self.assertIn("your metric absent has no value in any cell", told)
+        for arguments in [], ["--baseline", baseline, "--update"]:
+            said = self.ends(1, "gate", silent, *arguments).stdout
+            self.assertRegex(said, r"none of the \d+ cells with an answer has a value of your metric absent; .*: hips hid")
+        self.assertFalse(baseline.exists())
+
     def test_expectations_and_gates_go_by_it(self):
         gate = self.ends(1, "gate", self.whole)
         self.assertIn("mine", gate.stdout)
