@@ -119,20 +119,19 @@ class ShiftFinder {
     }
   }
 
-  /// Returns the shift, in whole frames of the truth, that fits best. Returns nothing if no shift fits, if the best one
-  /// explains less than kMinExplainedShare of the variance, or if it is the largest that is searched.
+  /// Returns the shift, in whole frames of the truth, that fits best. In a motion that repeats, many shifts fit nearly
+  /// as well; of these, takes the best one among the neighbours of the smallest one. Returns nothing if no shift
+  /// explains kMinExplainedShare of the variance, or if the shift is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames
+    constexpr double kNearlyAsWell = 1.44, kRounding = 1e-9;
     const std::size_t stride = 1 + truth_.FrameCount() / kMaxCompared;
     std::size_t unmoved = 0;
     VisitPairs(0, stride, [&](const Distances& pair) { unmoved += pair.truth.size(); });
     const std::size_t fewest = std::max(unmoved / 2, kMinFrames);
     const int reach = static_cast<int>(std::floor(kMaxTimeShift_s * truth_rate_hz_));
-    std::optional<int> best;
-    double largest = 0;
-    // Try small shifts first: if two shifts fit equally well, the smaller one is kept.
-    for (int at = 0; at <= 2 * reach; ++at) {
-      const int shift = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
+    std::vector<double> unexplained;  // share of the variance, by shift
+    for (int shift = -reach; shift <= reach; ++shift) {
       std::size_t compared = 0;
       double explained = 0, all = 0;
       VisitPairs(shift / truth_rate_hz_, stride, [&](const Distances& pair) {
@@ -141,12 +140,23 @@ class ShiftFinder {
         explained += line.explained;
         all += line.all;
       });
-      if (compared < fewest || !(explained > largest * all)) continue;
-      best = shift;
-      largest = explained / all;
+      unexplained.push_back(compared >= fewest && all > 0 ? 1 - explained / all : 1);
     }
-    if (!best || std::abs(*best) == reach || largest < kMinExplainedShare) return std::nullopt;
-    return best;
+    const double least = std::ranges::min(unexplained);
+    if (least > 1 - kMinExplainedShare) return std::nullopt;
+    const auto at = [&](int shift) { return unexplained[static_cast<std::size_t>(reach + shift)]; };
+    const auto fits = [&](int shift) {
+      return std::abs(shift) <= reach && at(shift) <= kNearlyAsWell * least + kRounding;
+    };
+    int smallest = 0;
+    while (!fits(smallest) && !fits(-smallest)) ++smallest;
+    int best = fits(-smallest) ? -smallest : smallest;
+    for (const int way : {-1, 1}) {
+      for (int shift = way * smallest; fits(shift); shift += way) {
+        if (at(shift) < at(best)) best = shift;
+      }
+    }
+    return std::abs(best) == reach ? std::nullopt : std::optional(best);
   }
 
   /// The sums of one Newton step.

@@ -35,6 +35,8 @@ struct Measured {
 /// Returns what a value of this kind must be, if `value` is not; else "".
 std::string_view WhatItMustBe(double value, Reading reading) {
   if (reading == Reading::kYesNo && value != 0 && value != 1) return "0 or 1";
+  constexpr double kLargest = 1e100;  // sums of squares of larger values would overflow
+  if (std::abs(value) > kLargest) return "-1e100 to 1e100";
   return reading != Reading::kAmount && !(value >= 0 && value <= 1) ? "0 to 1" : "";
 }
 
@@ -57,7 +59,9 @@ Measured ReadValue(const MetricInfo& metric, const OutsideReply& reply) {
     const std::string_view allowed = WhatItMustBe(value->get<double>(), metric.reading);
     if (!allowed.empty()) {
       fields.Note(
-          {{}, fmt::format("value: {}; allowed, because of the metric's key 'reads': {}", ShowJson(*value), allowed)});
+          {{},
+           fmt::format("value: {}; allowed{}: {}", ShowJson(*value),
+                       metric.reading == Reading::kAmount ? "" : ", because of the metric's key 'reads'", allowed)});
     }
   }
   if (auto read = fields.Finish(); !read) {

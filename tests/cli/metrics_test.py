@@ -42,6 +42,8 @@ for line in sys.stdin:
             answer = {"value": "much"}
         if manner == "percent":
             answer = {"value": 50}
+        if manner == "huge":
+            answer = {"value": 1e308}
         if manner == "falls" and problem["tracks"][0]["poses"]:
             sys.exit("about to fall")
         if manner == "looks":
@@ -66,7 +68,8 @@ for line in sys.stdin:
 
 VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
 BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is neither a number nor null',
-       "falls": "about to fall", "percent": "value: 50; allowed, because of the metric's key 'reads': 0 to 1"}
+       "falls": "about to fall", "percent": "value: 50; allowed, because of the metric's key 'reads': 0 to 1",
+       "huge": "value: 1e+308; allowed: -1e100 to 1e100"}
 
 
 # The mean distance of the joints of task evaluation, mm; its cells have the files' own joints, and no tracks of ours.

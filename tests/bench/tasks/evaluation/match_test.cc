@@ -691,8 +691,14 @@ TEST(DoubtsOnPair, OfAMotionThatRepeatsNameTheSmallestShift) {
     }
     return motion;
   };
-  EXPECT_THAT(Doubts(stepping(0), WithErrors(stepping(0.1), 0.005)),
-              ElementsAre(AllOf(HasSubstr("the answer seems to be 0.1"), HasSubstr(" s late"))));
+  for (const double late_s : {0.1, -0.1}) {
+    const RawMotion answer = WithErrors(stepping(late_s), 0.005);
+    EXPECT_THAT(Doubts(stepping(0), answer), ElementsAre(AllOf(HasSubstr("the answer seems to be 0.1"),
+                                                               HasSubstr(late_s > 0 ? " s late" : " s early"))));
+    const auto found = Match(stepping(0), answer, "roles", Lag::kFind);
+    ASSERT_TRUE(found && found->lag);
+    EXPECT_NEAR(found->lag->shift_s, late_s, 0.003);
+  }
 }
 
 TEST(DoubtsOnPair, NameTheRateAtWhichTheAnswerSpansTheTruth) {
