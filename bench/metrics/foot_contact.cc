@@ -101,7 +101,8 @@ std::optional<double> PhysicalFootContact(const PointTracks& feet, std::span<con
   }
   double largest = 0;
   for (const double a : accelerations) largest = std::max(largest, std::isnan(a) ? 0 : a);
-  if (largest == 0) return std::nullopt;
+  constexpr double kRounding_m = 1e-7;  // of positions
+  if (largest <= kRounding_m * rate_hz * rate_hz) return std::nullopt;
   // Multiply each acceleration of the root by the distances that the two feet move after the acceleration's middle
   // frame. The slower joint of a foot gives the foot's distance.
   std::vector<double> products;

@@ -280,7 +280,9 @@ std::string DoubtOnTimes(const JudgedSide& true_side, const JudgedSide& found_si
           rate_hz, answer.rate_hz);
     }
   }
-  if (best == 0 || std::abs(best) == reach) return "";
+  // Much that is left shows another motion, such as a mirrored or a reversed one.
+  constexpr double kMaxLeft_m = 0.08;
+  if (best == 0 || std::abs(best) == reach || best_m > kMaxLeft_m) return "";
   // A part without motion fits a body that stands still, so FindLag must find a shift, too. A shift below one frame of
   // the slower file may only come from taking the nearest frames.
   const auto found = FindLag(true_side, found_side, start_s);

@@ -19,8 +19,8 @@ namespace etude {
 /// - sides: with left and right exchanged, the differences of the distances between joints are at most half as large,
 ///   and the answer's left and right hip are in the opposite order to the truth's hips;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
-///   large. A shift has at least one frame and at most kMaxTimeShift_s, and FindLag must find a shift, too. If a lag
-///   was already removed (`matched.lag`), neither sides nor times are searched.
+///   large. A shift has at least one frame and at most kMaxTimeShift_s, it leaves at most 8 cm, and FindLag must find a
+///   shift, too. If a lag was already removed (`matched.lag`), neither sides nor times are searched.
 /// Limits and method are our own. `matched` holds the judged joints frame by frame. The truth's first frame is paired
 /// with the answer at `start_s`.
 std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,

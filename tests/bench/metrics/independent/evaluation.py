@@ -189,7 +189,7 @@ def pfc(given):
         x, y, z = (rate ** 2 * (a[k] - 2 * b[k] + c[k]) for k in range(3))
         pushes.append(math.sqrt(x * x + max(y, 0) ** 2 + z * z))
     largest = max((push for push in pushes if not math.isnan(push)), default=0)
-    if largest == 0:
+    if largest <= 1e-7 * rate ** 2:  # rounding
         return None
     products = []
     for f, push in enumerate(pushes):
