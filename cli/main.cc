@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/ranges.h>
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -29,6 +28,7 @@
 #include "engine/base/utf8.h"
 #include "io/drawing/escape.h"
 #include "io/process/closed_environment.h"
+#include "io/process/heap.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -169,13 +169,6 @@ Result<void> TakeStack() {
                        limit.rlim_cur >> 10, kMinStack >> 10);
 }
 
-/// Tells the C library to keep up to 64 MiB of freed memory for later use. Otherwise, getting new pages, which the
-/// kernel fills with zeros, would take a quarter of the time of reading files.
-void KeepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);
-}
-
 int Main(int argc, char** argv) {
   // The launcher sets the environment before this program starts, so that results do not depend on the shell's
   // variables.
@@ -226,7 +219,7 @@ int main(int argc, char** argv) {
   // The parent may have set SIGCHLD to be ignored, which would lose the exit status of this process's children.
   std::signal(SIGCHLD, SIG_DFL);
   etude::EndWhenMappedFilesAreCut();
-  etude::KeepFreedMemory();
+  etude::PrepareHeap();
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file-size limit then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
   etude::MakeOutputSafe();

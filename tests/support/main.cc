@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "io/process/heap.h"
+
 namespace {
 
 constexpr std::string_view kHeavy = "HEAVY_";  // prefix of tests that only `scripts/test --full` runs
@@ -32,6 +34,7 @@ std::string TestsOf(const std::string& folder, bool heavy) {
 // GoogleTest's main with `--folder=bench/statistics`, which runs only this folder's tests: those that are not heavy, or
 // with a second argument `--heavy` the heavy ones. A filter given on the command line replaces this selection.
 int main(int argc, char** argv) {
+  etude::PrepareHeap();
   testing::InitGoogleTest(&argc, argv);
   constexpr const char* kFolder = "--folder=";
   const bool heavy = argc == 3 && std::strcmp(argv[2], "--heavy") == 0;
