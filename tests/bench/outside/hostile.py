@@ -126,7 +126,7 @@ def answers_late(problem):
 
 
 def answers_large(problem):
-    answer(problem, answer={"number": [0.25] * 1000000})
+    answer(problem, answer={"number": "x" * 5_000_000})
 
 
 def eats_memory(problem):
@@ -137,7 +137,7 @@ def eats_memory(problem):
 
 def lets_a_child_eat_memory(problem):
     """Starts a child in its own session, whose parent ends."""
-    script = "eaten = bytearray(b'x' * 300_000_000); import time; time.sleep(1000)"
+    script = "eaten = bytearray(b'x' * 150_000_000); import time; time.sleep(1000)"
     subprocess.run(["sh", "-c", 'setsid python3 -c "$0" </dev/null >/dev/null & exit', script])
     hangs(problem)
 
