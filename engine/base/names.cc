@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "engine/base/text.h"
 #include "engine/base/utf8.h"

@@ -1,7 +1,5 @@
 #include "engine/cameras/rig_pairs.h"
 
-#include <fmt/format.h>
-
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <set>

@@ -1,7 +1,5 @@
 #include "engine/formats/length_units.h"
 
-#include <algorithm>
-#include <string>
 #include <utility>
 
 #include "engine/base/text.h"

@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 
-#include "engine/cameras/pose2sim_file.h"
 #include "engine/keypoints/keypoint_motion.h"
 
 namespace etude {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "engine/base/gaps.h"
 #include "engine/base/names.h"

@@ -16,7 +16,6 @@
 #include "engine/formats/row_clock.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/joint_limits.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/rig.h"
 

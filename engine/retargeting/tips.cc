@@ -1,7 +1,6 @@
 #include "engine/retargeting/tips.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -6,10 +6,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <vector>
 
-#include "engine/motion/statistics.h"
 #include "engine/retargeting/stance.h"
 
 namespace etude {

@@ -1,7 +1,6 @@
 #include "engine/silhouettes/silhouette.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

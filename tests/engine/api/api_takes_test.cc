@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "engine/fuzzy/features.h"
 #include "engine/silhouettes/track_silhouettes.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/engine/silhouettes/swinging_take.h"

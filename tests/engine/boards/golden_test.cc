@@ -1,6 +1,5 @@
 // The golden value of finding boards in small and noisy pictures, around every threshold. The other tests of this
 // folder check that results are right.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "sim/music/music.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "engine/coaching/session.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 
 #include "engine/base/angles.h"
 #include "engine/formats/bvh.h"
-#include "engine/motion/edit.h"
 #include "tests/support/person.h"
 #include "tests/support/random_clip.h"
 #include "tests/support/results.h"

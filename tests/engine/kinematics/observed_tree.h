@@ -1,7 +1,6 @@
 #pragma once
 
 #include "engine/base/euler.h"
-#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/support/gaps.h"

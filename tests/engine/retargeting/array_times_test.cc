@@ -1,5 +1,4 @@
 // Rates and times in arrays of positions, as public data sets name them.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "engine/teaching/moves_file.h"
 #include "engine/teaching/teach_move.h"
 #include "tests/engine/teaching/arms.h"
 #include "tests/support/kept_lines.h"

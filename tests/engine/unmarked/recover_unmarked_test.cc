@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/silhouettes/turns.h"
 #include "tests/engine/silhouettes/capsule_picture.h"
 #include "tests/support/results.h"
 

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/formats/npz.h"
 #include "tests/engine/motion/moving_body.h"

@@ -7,7 +7,6 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/trc.h"
-#include "engine/motion/statistics.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 #include "tests/io/clips/clip_folder.h"

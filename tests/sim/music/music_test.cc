@@ -1,6 +1,5 @@
 #include "sim/music/music.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "engine/transitions/fillers/filler.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 

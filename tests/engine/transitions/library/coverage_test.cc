@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/transitions/library/transition_points.h"
-#include "engine/transitions/search/frame_matches.h"
 #include "tests/engine/transitions/search/search_data.h"
 #include "tests/engine/transitions/test_clips.h"
 
