@@ -17,8 +17,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/text.h"
-#include "io/clips/fbx_rotations.h"
-#include "io/clips/fbx_takes.h"
+#include "io/clips/fbx_preparation.h"
 #include "io/process/loaded_libraries.h"
 
 namespace etude {

@@ -7,9 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
 
-#include "io/clips/fbx_takes.h"
+#include "io/clips/fbx_preparation.h"
 #include "io/clips/fbx_tree.h"
 
 namespace etude {

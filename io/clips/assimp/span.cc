@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/clips/fbx_takes.h"
+#include "io/clips/fbx_preparation.h"
 
 namespace etude {
 namespace {

@@ -1,5 +1,3 @@
-#include "io/clips/fbx_rotations.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/clips/fbx_preparation.h"
 #include "tests/io/clips/fbx_writer.h"
 
 namespace etude {

@@ -1,5 +1,3 @@
-#include "io/clips/fbx_takes.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -12,6 +10,7 @@
 
 #include "engine/formats/gltf/gltf.h"
 #include "io/clips/fbx.h"
+#include "io/clips/fbx_preparation.h"
 #include "tests/io/clips/fbx_writer.h"
 #include "tests/support/results.h"
 
