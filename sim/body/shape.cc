@@ -57,49 +57,15 @@ struct OwnParts {
 };
 
 OwnParts OwnPartsOf(Role role) {
-  // A joint between two limbs lies in both limbs; a tip lies in one part.
-  switch (role) {
-    case kHipCentre:
-    case kSpine:
-      return {Part::kTrunk, Part::kTrunk};
-    case kShoulderCentre:
-      return {Part::kTrunk, Part::kHead};
-    case kHead:
-      return {Part::kHead, Part::kHead};
-    case kLeftShoulder:
-      return {Part::kTrunk, Part::kLeftUpperArm};
-    case kLeftElbow:
-      return {Part::kLeftUpperArm, Part::kLeftForearm};
-    case kLeftWrist:
-      return {Part::kLeftForearm, Part::kLeftHand};
-    case kLeftHand:
-      return {Part::kLeftHand, Part::kLeftHand};
-    case kRightShoulder:
-      return {Part::kTrunk, Part::kRightUpperArm};
-    case kRightElbow:
-      return {Part::kRightUpperArm, Part::kRightForearm};
-    case kRightWrist:
-      return {Part::kRightForearm, Part::kRightHand};
-    case kRightHand:
-      return {Part::kRightHand, Part::kRightHand};
-    case kLeftHip:
-      return {Part::kTrunk, Part::kLeftThigh};
-    case kLeftKnee:
-      return {Part::kLeftThigh, Part::kLeftShank};
-    case kLeftAnkle:
-      return {Part::kLeftShank, Part::kLeftFoot};
-    case kLeftFoot:
-      return {Part::kLeftFoot, Part::kLeftFoot};
-    case kRightHip:
-      return {Part::kTrunk, Part::kRightThigh};
-    case kRightKnee:
-      return {Part::kRightThigh, Part::kRightShank};
-    case kRightAnkle:
-      return {Part::kRightShank, Part::kRightFoot};
-    case kRightFoot:
-      return {Part::kRightFoot, Part::kRightFoot};
+  if (role == kHead) return {Part::kHead, Part::kHead};
+  if (role == kShoulderCentre) return {Part::kTrunk, Part::kHead};
+  // A joint lies in the limb that ends there (otherwise in the trunk) and in the limb that begins there.
+  OwnParts parts{Part::kTrunk, Part::kTrunk};
+  for (const Limb& limb : kLimbs) {
+    if (limb.to == role) parts = {limb.part, limb.part};
+    if (limb.from == role) parts.second = limb.part;
   }
-  return {Part::kTrunk, Part::kTrunk};
+  return parts;
 }
 
 double TrunkLength(const BodyPose& pose) {

@@ -23,85 +23,49 @@ constexpr ControlSpan InDegrees(double spread, double lower, double upper) {
   return {Radians(spread), Radians(lower), Radians(upper)};
 }
 
-ControlSpan SpanOf(MiddleControl control) {
-  // Columns: standard deviation, lower end, upper end; in metres, or in degrees if so marked.
-  switch (control) {
-    case kHipsSide:
-      return {0.015, -0.2, 0.2};
-    case kHipsAhead:
-      return {0.01, -0.16, 0.1};
-    case kHipsDrop:
-      return {0.015, -0.06, 0.3};
-    case kHipsTurn:
-      return InDegrees(4, -25, 25);
-    case kHipsTilt:
-      return InDegrees(2, -22, 22);
-    case kJump:
-      return {0, 0, 1};
-    case kTrunkBend:
-      return InDegrees(6, -15, 95);
-    case kTrunkSide:
-      return InDegrees(4, -33, 33);
-    case kTrunkTurn:
-      return InDegrees(6, -40, 40);
-    case kNeckBend:
-      return InDegrees(6, -35, 35);
-    case kNeckSide:
-      return InDegrees(4, -30, 30);
-    case kNeckTurn:
-      return InDegrees(6, -50, 50);
-  }
-  return {};
-}
-
-ControlSpan SpanOf(SideControl control) {
-  // Columns: standard deviation, lower end, upper end; in metres, or in degrees if so marked.
-  switch (control) {
-    case kArmForward:
-      return InDegrees(15, -40, 170);
-    case kArmSide:
-      return InDegrees(14, -20, 80);
-    case kArmTwist:
-      return InDegrees(16, -60, 60);
-    case kElbow:
-      return InDegrees(17, 0, 140);
-    case kWrist:
-      return InDegrees(10, -50, 60);
-    case kLegFree:
-      return {0, 0, 1};
-    case kLegForward:
-      return InDegrees(8, -20, 100);
-    case kLegSide:
-      return InDegrees(5, -10, 45);
-    case kLegTwist:
-      return InDegrees(5, -30, 35);
-    case kKnee:
-      return InDegrees(10, 0, 125);
-    case kFootPoint:
-      return InDegrees(6, -15, 45);
-    case kFootSide:
-      return {0.01, -0.05, 0.3};
-    case kFootAhead:
-      return {0.01, -0.15, 0.15};
-    case kFootLift:
-      return {0, 0, 0.3};
-    case kFootHeel:
-      return InDegrees(0, 0, 40);
-    case kFootTurn:
-      return InDegrees(3, -15, 30);
-  }
-  return {};
-}
+// The spans in the order of the controls. Columns: standard deviation, lower end, upper end; in metres, or in degrees
+// if so marked.
+constexpr std::array<ControlSpan, kMiddleControlCount> kMiddleSpans = {{
+    {0.015, -0.2, 0.2},     // kHipsSide
+    {0.01, -0.16, 0.1},     // kHipsAhead
+    {0.015, -0.06, 0.3},    // kHipsDrop
+    InDegrees(4, -25, 25),  // kHipsTurn
+    InDegrees(2, -22, 22),  // kHipsTilt
+    {0, 0, 1},              // kJump
+    InDegrees(6, -15, 95),  // kTrunkBend
+    InDegrees(4, -33, 33),  // kTrunkSide
+    InDegrees(6, -40, 40),  // kTrunkTurn
+    InDegrees(6, -35, 35),  // kNeckBend
+    InDegrees(4, -30, 30),  // kNeckSide
+    InDegrees(6, -50, 50),  // kNeckTurn
+}};
+constexpr std::array<ControlSpan, kSideControlCount> kSideSpans = {{
+    InDegrees(15, -40, 170),  // kArmForward
+    InDegrees(14, -20, 80),   // kArmSide
+    InDegrees(16, -60, 60),   // kArmTwist
+    InDegrees(17, 0, 140),    // kElbow
+    InDegrees(10, -50, 60),   // kWrist
+    {0, 0, 1},                // kLegFree
+    InDegrees(8, -20, 100),   // kLegForward
+    InDegrees(5, -10, 45),    // kLegSide
+    InDegrees(5, -30, 35),    // kLegTwist
+    InDegrees(10, 0, 125),    // kKnee
+    InDegrees(6, -15, 45),    // kFootPoint
+    {0.01, -0.05, 0.3},       // kFootSide
+    {0.01, -0.15, 0.15},      // kFootAhead
+    {0, 0, 0.3},              // kFootLift
+    InDegrees(0, 0, 40),      // kFootHeel
+    InDegrees(3, -15, 30),    // kFootTurn
+}};
 
 /// Returns the spans of all controls, in order.
 const std::array<ControlSpan, kControlCount>& Spans() {
   static const std::array<ControlSpan, kControlCount> spans = [] {
     std::array<ControlSpan, kControlCount> all{};
-    for (std::size_t i = 0; i < kMiddleControlCount; ++i) all[i] = SpanOf(static_cast<MiddleControl>(i));
+    std::ranges::copy(kMiddleSpans, all.begin());
     for (Side side : {Side::kLeft, Side::kRight}) {
       for (std::size_t i = 0; i < kSideControlCount; ++i) {
-        const auto control = static_cast<SideControl>(i);
-        all[Controls::SideIndex(side, control)] = SpanOf(control);
+        all[Controls::SideIndex(side, static_cast<SideControl>(i))] = kSideSpans[i];
       }
     }
     return all;

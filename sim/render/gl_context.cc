@@ -47,8 +47,8 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
   ASSIGN_OR_RETURN(result->context_, library.make_context());
   result->MakeCurrent();
 // Load the functions.
-#define ETUDE_GL_LOAD(type, name)                                                      \
-  result->functions_.name = reinterpret_cast<type>(library.find_function("gl" #name)); \
+#define ETUDE_GL_LOAD(name)                                                                           \
+  result->functions_.name = reinterpret_cast<decltype(&gl##name)>(library.find_function("gl" #name)); \
   if (!result->functions_.name) return Fail({}, "{} lacks the OpenGL function gl{}", result->library(), #name);
   ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
 #undef ETUDE_GL_LOAD

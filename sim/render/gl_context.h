@@ -1,6 +1,7 @@
 #pragma once
 
-// No other header includes GL; only this folder's .cc files include this header.
+// No other header includes GL; only this folder's .cc files include this header. The prototypes are only used as types.
+#define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
 #include <memory>
@@ -14,77 +15,24 @@ namespace etude {
 
 // The list of all GL functions that this folder calls. Their addresses are requested by name from OSMesa or EGL,
 // because the usual loaders (libepoxy, GLEW) do not work with OSMesa.
-#define ETUDE_GL_FUNCTIONS(X)                                  \
-  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
-  X(PFNGLATTACHSHADERPROC, AttachShader)                       \
-  X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation)           \
-  X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
-  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
-  X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
-  X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
-  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
-  X(PFNGLBLENDEQUATIONPROC, BlendEquation)                     \
-  X(PFNGLBUFFERDATAPROC, BufferData)                           \
-  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
-  X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
-  X(PFNGLCLEARBUFFERUIVPROC, ClearBufferuiv)                   \
-  X(PFNGLCOLORMASKIPROC, ColorMaski)                           \
-  X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
-  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
-  X(PFNGLCREATESHADERPROC, CreateShader)                       \
-  X(PFNGLCULLFACEPROC, CullFace)                               \
-  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
-  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
-  X(PFNGLDELETESHADERPROC, DeleteShader)                       \
-  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
-  X(PFNGLDEPTHMASKPROC, DepthMask)                             \
-  X(PFNGLDISABLEPROC, Disable)                                 \
-  X(PFNGLDISABLEIPROC, Disablei)                               \
-  X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
-  X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
-  X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                         \
-  X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
-  X(PFNGLENABLEPROC, Enable)                                   \
-  X(PFNGLENABLEIPROC, Enablei)                                 \
-  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
-  X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
-  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
-  X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
-  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                   \
-  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
-  X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
-  X(PFNGLGENTEXTURESPROC, GenTextures)                         \
-  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
-  X(PFNGLGETERRORPROC, GetError)                               \
-  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
-  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
-  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
-  X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
-  X(PFNGLGETSTRINGPROC, GetString)                             \
-  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
-  X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
-  X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
-  X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
-  X(PFNGLREADPIXELSPROC, ReadPixels)                           \
-  X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
-  X(PFNGLSCISSORPROC, Scissor)                                 \
-  X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
-  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
-  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
-  X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
-  X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
-  X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
-  X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
-  X(PFNGLUNIFORM4FVPROC, Uniform4fv)                           \
-  X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)               \
-  X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
-  X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)         \
-  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
-  X(PFNGLVIEWPORTPROC, Viewport)
+// clang-format off
+#define ETUDE_GL_FUNCTIONS(X)                                                                                 \
+  X(ActiveTexture) X(AttachShader) X(BindAttribLocation) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer) \
+  X(BindTexture) X(BindVertexArray) X(BlendEquation) X(BufferData) X(CheckFramebufferStatus) X(ClearBufferfv) \
+  X(ClearBufferuiv) X(ColorMaski) X(CompileShader) X(CreateProgram) X(CreateShader) X(CullFace)               \
+  X(DeleteFramebuffers) X(DeleteRenderbuffers) X(DeleteShader) X(DeleteTextures) X(DepthMask) X(Disable)      \
+  X(Disablei) X(DrawArrays) X(DrawArraysInstanced) X(DrawBuffers) X(DrawElements) X(Enable) X(Enablei)        \
+  X(EnableVertexAttribArray) X(FramebufferRenderbuffer) X(FramebufferTexture2D) X(GenBuffers)                 \
+  X(GenerateMipmap) X(GenFramebuffers) X(GenRenderbuffers) X(GenTextures) X(GenVertexArrays) X(GetError)      \
+  X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation)  \
+  X(LinkProgram) X(PixelStorei) X(ReadBuffer) X(ReadPixels) X(RenderbufferStorage) X(Scissor) X(ShaderSource) \
+  X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform3f) X(Uniform4fv)            \
+  X(UniformMatrix3fv) X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
+// clang-format on
 
 /// The GL functions without the prefix "gl": `gl.Clear(…)`.
 struct GlFunctions {
-#define ETUDE_GL_MEMBER(type, name) type name = nullptr;
+#define ETUDE_GL_MEMBER(name) decltype(&gl##name) name = nullptr;
   ETUDE_GL_FUNCTIONS(ETUDE_GL_MEMBER)
 #undef ETUDE_GL_MEMBER
 };

@@ -114,75 +114,30 @@ void ReadCorrelations(Fields& fields, SkeletonSensorOptions& options) {
 }  // namespace
 
 JointGroup GroupOf(Role role) {
-  // Left and right share a group; all joints of trunk and head form the torso.
-  switch (role) {
-    case kLeftShoulder:
-    case kRightShoulder:
-      return JointGroup::kShoulders;
-    case kLeftElbow:
-    case kRightElbow:
-      return JointGroup::kElbows;
-    case kLeftWrist:
-    case kRightWrist:
-      return JointGroup::kWrists;
-    case kLeftHand:
-    case kRightHand:
-      return JointGroup::kHands;
-    case kLeftHip:
-    case kRightHip:
-      return JointGroup::kHips;
-    case kLeftKnee:
-    case kRightKnee:
-      return JointGroup::kKnees;
-    case kLeftAnkle:
-    case kRightAnkle:
-    case kLeftFoot:
-    case kRightFoot:
-      return JointGroup::kFeet;
-    default:
-      return JointGroup::kTorso;
-  }
+  using enum JointGroup;
+  static constexpr std::array<JointGroup, kRoleCount> kGroupOfRoles = {
+      kTorso,     kTorso,  kTorso,  kTorso,  // the centre, from the hip centre to the head
+      kShoulders, kElbows, kWrists, kHands,  // the left arm
+      kShoulders, kElbows, kWrists, kHands,  // the right arm
+      kHips,      kKnees,  kFeet,   kFeet,   // the left leg
+      kHips,      kKnees,  kFeet,   kFeet,   // the right leg
+  };
+  return kGroupOfRoles[Index(role)];
 }
 
 std::string_view GroupName(JointGroup group) { return kGroupNames[Index(group)]; }
 std::span<const JointGroup, kJointGroupCount> AllJointGroups() { return kGroups; }
 
 BoneKind BoneKindOf(Role child) {
-  // Left and right bones have the same kind.
-  switch (child) {
-    case kHipCentre:
-    case kSpine:
-      return BoneKind::kLowerSpine;
-    case kShoulderCentre:
-      return BoneKind::kUpperSpine;
-    case kHead:
-      return BoneKind::kNeck;
-    case kLeftShoulder:
-    case kRightShoulder:
-      return BoneKind::kCollar;
-    case kLeftElbow:
-    case kRightElbow:
-      return BoneKind::kUpperArm;
-    case kLeftWrist:
-    case kRightWrist:
-      return BoneKind::kForearm;
-    case kLeftHand:
-    case kRightHand:
-      return BoneKind::kHand;
-    case kLeftHip:
-    case kRightHip:
-      return BoneKind::kPelvis;
-    case kLeftKnee:
-    case kRightKnee:
-      return BoneKind::kThigh;
-    case kLeftAnkle:
-    case kRightAnkle:
-      return BoneKind::kShank;
-    case kLeftFoot:
-    case kRightFoot:
-      return BoneKind::kFoot;
-  }
-  return BoneKind::kLowerSpine;
+  using enum BoneKind;
+  static constexpr std::array<BoneKind, kRoleCount> kKindOfChildren = {
+      kLowerSpine, kLowerSpine, kUpperSpine, kNeck,  // the centre, from the hip centre to the head
+      kCollar,     kUpperArm,   kForearm,    kHand,  // the left arm
+      kCollar,     kUpperArm,   kForearm,    kHand,  // the right arm
+      kPelvis,     kThigh,      kShank,      kFoot,  // the left leg
+      kPelvis,     kThigh,      kShank,      kFoot,  // the right leg
+  };
+  return kKindOfChildren[Index(child)];
 }
 
 std::string_view BoneName(BoneKind kind) { return kBoneNames[Index(kind)]; }

@@ -21,32 +21,13 @@ constexpr std::size_t kPartCount = 5;
 /// Marks hips and shoulders, which carry the other parts and are not scaled.
 constexpr Part kNoPart{kPartCount};
 
-Part PartOf(Role child) {
-  switch (child) {
-    case kSpine:
-    case kShoulderCentre:
-    case kHead:
-      return Part::kTrunk;
-    case kLeftElbow:
-    case kLeftWrist:
-    case kLeftHand:
-      return Part::kLeftArm;
-    case kRightElbow:
-    case kRightWrist:
-    case kRightHand:
-      return Part::kRightArm;
-    case kLeftKnee:
-    case kLeftAnkle:
-    case kLeftFoot:
-      return Part::kLeftLeg;
-    case kRightKnee:
-    case kRightAnkle:
-    case kRightFoot:
-      return Part::kRightLeg;
-    default:
-      return kNoPart;
-  }
-}
+constexpr std::array<Part, kRoleCount> kPartOfChildren = {
+    kNoPart, Part::kTrunk,    Part::kTrunk,    Part::kTrunk,     // the centre, from the hip centre to the head
+    kNoPart, Part::kLeftArm,  Part::kLeftArm,  Part::kLeftArm,   // from the shoulder to the hand
+    kNoPart, Part::kRightArm, Part::kRightArm, Part::kRightArm,  //
+    kNoPart, Part::kLeftLeg,  Part::kLeftLeg,  Part::kLeftLeg,   // from the hip to the foot
+    kNoPart, Part::kRightLeg, Part::kRightLeg, Part::kRightLeg,  //
+};
 
 /// A number that oscillates slowly about a centre.
 struct Oscillation {
@@ -134,7 +115,7 @@ BodyPose Vary(const BodyPose& pose, const BodyPose& lengths, const MeanPose& mea
   for (const Bone& bone : AllBones()) {
     const std::size_t child = Index(bone.child);
     glm::dvec3 direction = directions[child];
-    if (const Part part = PartOf(bone.child); part != kNoPart) {
+    if (const Part part = kPartOfChildren[Index(bone.child)]; part != kNoPart) {
       const double factor = style.amplitudes[static_cast<std::size_t>(part)].At(seconds);
       direction = ScaleTurn(direction, mean.directions[child], factor);
     }
