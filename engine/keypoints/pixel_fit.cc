@@ -9,16 +9,9 @@ namespace etude {
 glm::dvec2 PixelFit::ToFilm(const glm::dvec2& rig) const {
   glm::dvec2 p = scale * rig + shift;
   if (is_mirrored) p.x = size.x - p.x;
-  switch (quarter_turns) {
-    case 1:
-      return {size.y - p.y, p.x};
-    case 2:
-      return size - p;
-    case 3:
-      return {p.y, size.x - p.x};
-    default:
-      return p;
-  }
+  if (quarter_turns == 1) return {size.y - p.y, p.x};
+  if (quarter_turns == 2) return size - p;
+  return quarter_turns == 3 ? glm::dvec2(p.y, size.x - p.x) : p;
 }
 
 glm::dvec2 PixelFit::ToRig(const glm::dvec2& film) const {

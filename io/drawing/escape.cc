@@ -24,6 +24,9 @@ Utf8Character AllowedCharacter(std::string_view text) {
   return is_control || character.code == 0xFFFE || character.code == 0xFFFF ? Utf8Character() : character;
 }
 
+constexpr std::pair<char, const char*> kMarkup[] = {
+    {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+
 using LatexRow = std::pair<std::string_view, std::string_view>;
 constexpr std::array<LatexRow, 45> kLatex{{
     {"\\", "\\textbackslash{}"},
@@ -106,24 +109,11 @@ std::string EscapeMarkup(std::string_view text) {
       continue;
     }
     // Escape the characters of markup.
-    switch (text[0]) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += TurnsText(code) ? NumberOf(code) : std::string(text.substr(0, length));
+    const auto* const markup = std::ranges::find(kMarkup, text[0], &std::pair<char, const char*>::first);
+    if (markup != std::end(kMarkup)) {
+      out += markup->second;
+    } else {
+      out += TurnsText(code) ? NumberOf(code) : std::string(text.substr(0, length));
     }
     text.remove_prefix(length);
   }

@@ -23,80 +23,44 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // ---- Vectors that hold the same number of several problems, one problem per lane ------------------------------------
 
+template <class T, class D = hn::ScalableTag<T>>
+struct LaneMask {
+  hn::Mask<D> m;
+
+  friend HWY_INLINE LaneMask operator!(const LaneMask& a) { return {hn::Not(a.m)}; }
+  friend HWY_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) { return {hn::Or(a.m, b.m)}; }
+  friend HWY_INLINE LaneMask operator&&(const LaneMask& a, const LaneMask& b) { return {hn::And(a.m, b.m)}; }
+  friend HWY_INLINE bool Any(const LaneMask& a) { return !hn::AllFalse(D(), a.m); }
+};
+
 /// A float or a double in every lane.
 template <class T, class D = hn::ScalableTag<T>>
 struct Lanes {
   using Number = T;
   using Tag = D;
+  using Mask = LaneMask<T, D>;
   hn::Vec<Tag> v;
 
   Lanes() = default;
   HWY_INLINE explicit Lanes(double x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
   HWY_INLINE explicit Lanes(hn::Vec<Tag> from) : v(from) {}
-};
 
-template <class T, class D = hn::ScalableTag<T>>
-struct LaneMask {
-  hn::Mask<D> m;
+  friend HWY_INLINE Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(hn::Add(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(hn::Sub(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(hn::Mul(a.v, b.v)); }
+  friend HWY_INLINE Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(hn::Div(a.v, b.v)); }
+  friend HWY_INLINE Lanes Magnitude(const Lanes& a) { return Lanes(hn::Abs(a.v)); }
+  friend HWY_INLINE Mask AtLeast(const Lanes& a, const Lanes& b) { return {hn::Ge(a.v, b.v)}; }
+  friend HWY_INLINE Mask Below(const Lanes& a, const Lanes& b) { return {hn::Lt(a.v, b.v)}; }
+  friend HWY_INLINE Mask AreEqual(const Lanes& a, const Lanes& b) { return {hn::Eq(a.v, b.v)}; }
+  friend HWY_INLINE Lanes Select(const Mask& condition, const Lanes& yes, const Lanes& no) {
+    return Lanes(hn::IfThenElse(condition.m, yes.v, no.v));
+  }
+  /// Returns `yes` where the condition holds, else 0.
+  friend HWY_INLINE Lanes OrZero(const Mask& condition, const Lanes& yes) {
+    return Lanes(hn::IfThenElseZero(condition.m, yes.v));
+  }
 };
-
-template <class T, class D>
-HWY_INLINE Lanes<T, D> operator+(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return Lanes<T, D>(hn::Add(a.v, b.v));
-}
-template <class T, class D>
-HWY_INLINE Lanes<T, D> operator-(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return Lanes<T, D>(hn::Sub(a.v, b.v));
-}
-template <class T, class D>
-HWY_INLINE Lanes<T, D> operator*(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return Lanes<T, D>(hn::Mul(a.v, b.v));
-}
-template <class T, class D>
-HWY_INLINE Lanes<T, D> operator/(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return Lanes<T, D>(hn::Div(a.v, b.v));
-}
-template <class T, class D>
-HWY_INLINE Lanes<T, D> Magnitude(const Lanes<T, D>& a) {
-  return Lanes<T, D>(hn::Abs(a.v));
-}
-template <class T, class D>
-HWY_INLINE Lanes<T, D> Select(const LaneMask<T, D>& condition, const Lanes<T, D>& yes, const Lanes<T, D>& no) {
-  return Lanes<T, D>(hn::IfThenElse(condition.m, yes.v, no.v));
-}
-/// Returns `yes` where the condition holds, else 0.
-template <class T, class D>
-HWY_INLINE Lanes<T, D> OrZero(const LaneMask<T, D>& condition, const Lanes<T, D>& yes) {
-  return Lanes<T, D>(hn::IfThenElseZero(condition.m, yes.v));
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> AtLeast(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return {hn::Ge(a.v, b.v)};
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> Below(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return {hn::Lt(a.v, b.v)};
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> AreEqual(const Lanes<T, D>& a, const Lanes<T, D>& b) {
-  return {hn::Eq(a.v, b.v)};
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> operator!(const LaneMask<T, D>& a) {
-  return {hn::Not(a.m)};
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> operator||(const LaneMask<T, D>& a, const LaneMask<T, D>& b) {
-  return {hn::Or(a.m, b.m)};
-}
-template <class T, class D>
-HWY_INLINE LaneMask<T, D> operator&&(const LaneMask<T, D>& a, const LaneMask<T, D>& b) {
-  return {hn::And(a.m, b.m)};
-}
-template <class T, class D>
-HWY_INLINE bool Any(const LaneMask<T, D>& a) {
-  return !hn::AllFalse(D(), a.m);
-}
 
 /// Returns std::max(a, b) of each lane: `a` unless `b` is greater.
 template <class V>
