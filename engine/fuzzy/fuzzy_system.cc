@@ -23,17 +23,9 @@ struct FeatureSettings {
   FeatureWeights weights{};  ///< the weights, scaled to sum to 8
 };
 
-std::vector<std::string> FeatureNames() {
-  std::vector<std::string> names;
-  for (Feature feature : AllFeatures()) names.emplace_back(FeatureName(feature));
-  return names;
-}
+std::vector<std::string> FeatureNames() { return NamesOf(AllFeatures(), FeatureName); }
 
-std::vector<std::string> TermNames(Feature feature) {
-  std::vector<std::string> names;
-  for (const Term& term : TermsOf(feature)) names.emplace_back(term.name);
-  return names;
-}
+std::vector<std::string> TermNames(Feature feature) { return NamesOf(TermsOf(feature)); }
 
 /// Returns the features in a key such as "RH, LH". They share the settings under the key.
 Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {

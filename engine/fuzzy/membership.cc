@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
 
@@ -153,8 +154,7 @@ std::string_view TagName(const Tags& tags, Feature feature) {
 
 Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   // Read the kind and its numbers.
-  std::vector<std::string> names;
-  for (const ShapeKind& kind : kKinds) names.emplace_back(kind.name);
+  const std::vector<std::string> names = NamesOf(kKinds);
   if (node.kind != Node::Kind::kMapping || node.entries.size() != 1) {
     return Fail(
         node.place, "a term needs one shape, such as {{triangular: [20, 90, 180]}}; found {}. Allowed shapes: {}",

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/base/named.h"
 #include "engine/base/text.h"
 #include "engine/vision/strokes.h"
 
@@ -81,17 +82,9 @@ std::span<const KeypointLayout> KeypointLayouts() {
   return layouts;
 }
 
-std::vector<std::string> KeypointLayoutNames() {
-  std::vector<std::string> names;
-  for (const KeypointLayout& layout : KeypointLayouts()) names.push_back(layout.name);
-  return names;
-}
+std::vector<std::string> KeypointLayoutNames() { return NamesOf(KeypointLayouts()); }
 
-const KeypointLayout* FindKeypointLayout(std::string_view name) {
-  const auto layouts = KeypointLayouts();
-  const auto found = std::ranges::find(layouts, name, &KeypointLayout::name);
-  return found == layouts.end() ? nullptr : &*found;
-}
+const KeypointLayout* FindKeypointLayout(std::string_view name) { return FindByName(KeypointLayouts(), name); }
 
 Landmark LandmarkOfName(std::string_view name) {
   std::string bare;

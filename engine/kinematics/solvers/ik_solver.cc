@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/base/named.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ceres_lm.h"
 #include "engine/kinematics/solvers/fabrik.h"
@@ -189,18 +190,8 @@ std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tr
   return solutions;
 }
 
-std::vector<std::string> IkSolverNames() {
-  std::vector<std::string> names;
-  for (const IkSolver& solver : AllIkSolvers()) names.push_back(solver.name);
-  return names;
-}
-
-const IkSolver* FindIkSolver(std::string_view name) {
-  for (const IkSolver& solver : AllIkSolvers()) {
-    if (solver.name == name) return &solver;
-  }
-  return nullptr;
-}
+std::vector<std::string> IkSolverNames() { return NamesOf(AllIkSolvers()); }
+const IkSolver* FindIkSolver(std::string_view name) { return FindByName(AllIkSolvers(), name); }
 
 std::string_view NewNameOfIkSolver(std::string_view name) {
   for (const auto& [former, now] : kRenamed) {
