@@ -59,8 +59,9 @@ class GaussNewtonHelp {
 
 /// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
 std::vector<std::string> BatchTargets();
-/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
-/// tests and benchmarks: all targets give the same results.
+/// Selects one of `BatchTargets` for batches, for solvers made from now on, and for all other code that Highway
+/// compiles once per instruction set; an empty name selects the widest. For tests and benchmarks: all targets give the
+/// same results.
 void SetBatchTarget(std::string_view name);
 
 // ---- One problem, four limbs in lanes (gauss_newton_limbs.cc) ------------------------------------------------------

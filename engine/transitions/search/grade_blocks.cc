@@ -133,21 +133,6 @@ BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, cons
   return HWY_DYNAMIC_DISPATCH(Bounds)(metric, query, block, limit);
 }
 
-std::vector<std::string> BlockTargets() {
-  hwy::SetSupportedTargetsForTest(0);
-  std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));
-  return names;
-}
-
-void SetBlockTarget(const std::string& target) {
-  hwy::SetSupportedTargetsForTest(0);
-  for (const std::int64_t one : hwy::SupportedAndGeneratedTargets()) {
-    if (target == hwy::TargetName(one)) hwy::SetSupportedTargetsForTest(one);
-  }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 double SquaredLimit(double distance) {
   // The slack covers the rounding of the square root and of the square, each by at most half a unit in the last place,
   // or by the smallest denormal near zero.

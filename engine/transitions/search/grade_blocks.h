@@ -4,8 +4,6 @@
 #include <bit>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "engine/fuzzy/distance.h"
 
@@ -81,10 +79,5 @@ BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, cons
 
 /// Returns a limit for d²: if a frame's rounded distance is at most `distance`, its d² never exceeds the limit.
 double SquaredLimit(double distance);
-
-/// For tests and benchmarks: BlockTargets returns the vector instruction sets of this CPU, the best first.
-/// SetBlockTarget chooses one of them, or the best if the name is unknown.
-std::vector<std::string> BlockTargets();
-void SetBlockTarget(const std::string& target);
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "tests/engine/transitions/search/search_data.h"
 
 namespace etude {
@@ -18,15 +19,15 @@ FrameBlock BlockOf(std::span<const Grades> frames) {
 /// Runs each test with every vector instruction set of this CPU.
 class GradeBlocks : public ::testing::Test {
  protected:
-  ~GradeBlocks() override { SetBlockTarget(""); }
+  ~GradeBlocks() override { SetBatchTarget(""); }
 
   template <class Check>
   void OnEveryTarget(const Check& check) {
-    const std::vector<std::string> targets = BlockTargets();
+    const std::vector<std::string> targets = BatchTargets();
     EXPECT_FALSE(targets.empty());
     for (const std::string& target : targets) {
       SCOPED_TRACE(target);
-      SetBlockTarget(target);
+      SetBatchTarget(target);
       check();
     }
   }
