@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace etude {
 namespace {
@@ -41,11 +43,11 @@ TEST(Shape, HasTheGradeOfACutAtBothItsEnds) {
   }
 }
 
-struct Sample {
+/// A term's membership function, by its grades at some inputs.
+struct Equation {
   Feature feature;
   const char* term;
-  double input;
-  double grade;
+  std::vector<std::pair<double, double>> grades;
 };
 
 double GradeOf(Feature feature, std::string_view term, double input) {
@@ -62,79 +64,30 @@ double GradeOf(Feature feature, std::string_view term, double input) {
 // The paper's equations by hand: both ends of every range, a point inside each branch, and a point beyond each end.
 TEST(Membership, FollowsEquations2To16AtBreakpointsAndBetweenThem) {
   using enum Feature;
-  const Sample samples[] = {
-      {kRH, "down", 0, 1},
-      {kRH, "down", 20, 1},
-      {kRH, "down", 55, 0.5},  // equation 2
-      {kRH, "down", 90, 0},
-      {kRH, "down", 180, 0},  //
-      {kRH, "mid", 0, 0},
-      {kRH, "mid", 20, 0},
-      {kRH, "mid", 55, 0.5},  // equation 3
-      {kRH, "mid", 90, 1},
-      {kRH, "mid", 135, 0.5},
-      {kRH, "mid", 180, 0},  //
-      {kRH, "up", 45, 0},
-      {kRH, "up", 90, 0},
-      {kRH, "up", 135, 0.5},  // equation 4
-      {kRH, "up", 180, 1},    //
-      {kRHE, "false", 0, 1},
-      {kRHE, "false", 45, 0.5},
-      {kRHE, "false", 90, 0},   // equation 5
-      {kRHE, "false", 150, 0},  //
-      {kRHE, "true", 0, 0},
-      {kRHE, "true", 20, 0},
-      {kRHE, "true", 55, 0.5},  // equation 6
-      {kRHE, "true", 90, 1},
-      {kRHE, "true", 150, 1},  //
-      {kPosture, "lie", -5, 1},
-      {kPosture, "lie", 0, 1},
-      {kPosture, "lie", 10, 0.75},  // equation 7
-      {kPosture, "lie", 40, 0},     //
-      {kPosture, "sit", 0, 0},
-      {kPosture, "sit", 10, 0.25},
-      {kPosture, "sit", 40, 1},  // equation 8
-      {kPosture, "sit", 70, 0.25},
-      {kPosture, "sit", 80, 0},  //
-      {kPosture, "stand", 40, 0},
-      {kPosture, "stand", 50, 0.25},
-      {kPosture, "stand", 80, 1},  // equation 9
-      {kPosture, "stand", 110, 0.25},
-      {kPosture, "stand", 120, 0},  //
-      {kPosture, "jump", 80, 0},
-      {kPosture, "jump", 90, 0.25},
-      {kPosture, "jump", 120, 1},  // equation 10
-      {kPosture, "jump", 200, 1},  //
-      {kTrunk, "true", 90, 1},
-      {kTrunk, "true", 110, 1},
-      {kTrunk, "true", 145, 0.5},  // equation 11
-      {kTrunk, "true", 180, 0},    //
-      {kTrunk, "false", 110, 0},
-      {kTrunk, "false", 125, 0},
-      {kTrunk, "false", 152.5, 0.5},  // equation 12
-      {kTrunk, "false", 180, 1},      //
-      {kRF, "inward", 0, 1},
-      {kRF, "inward", 30, 0.25},
-      {kRF, "inward", 40, 0},  // equation 13
-      {kRF, "inward", 90, 0},  //
-      {kRF, "outward", 0, 0},
-      {kRF, "outward", 30, 0.75},
-      {kRF, "outward", 40, 1},  // equation 14
-      {kRF, "outward", 90, 1},  //
-      {kRFK, "true", 60, 1},
-      {kRFK, "true", 90, 1},
-      {kRFK, "true", 135, 0.5},  // equation 15
-      {kRFK, "true", 180, 0},    //
-      {kRFK, "false", 90, 0},
-      {kRFK, "false", 100, 0},
-      {kRFK, "false", 140, 0.5},  // equation 16
-      {kRFK, "false", 180, 1},
+  const Equation equations[] = {
+      {kRH, "down", {{0, 1}, {20, 1}, {55, 0.5}, {90, 0}, {180, 0}}},              // equation 2
+      {kRH, "mid", {{0, 0}, {20, 0}, {55, 0.5}, {90, 1}, {135, 0.5}, {180, 0}}},   // equation 3
+      {kRH, "up", {{45, 0}, {90, 0}, {135, 0.5}, {180, 1}}},                       // equation 4
+      {kRHE, "false", {{0, 1}, {45, 0.5}, {90, 0}, {150, 0}}},                     // equation 5
+      {kRHE, "true", {{0, 0}, {20, 0}, {55, 0.5}, {90, 1}, {150, 1}}},             // equation 6
+      {kPosture, "lie", {{-5, 1}, {0, 1}, {10, 0.75}, {40, 0}}},                   // equation 7
+      {kPosture, "sit", {{0, 0}, {10, 0.25}, {40, 1}, {70, 0.25}, {80, 0}}},       // equation 8
+      {kPosture, "stand", {{40, 0}, {50, 0.25}, {80, 1}, {110, 0.25}, {120, 0}}},  // equation 9
+      {kPosture, "jump", {{80, 0}, {90, 0.25}, {120, 1}, {200, 1}}},               // equation 10
+      {kTrunk, "true", {{90, 1}, {110, 1}, {145, 0.5}, {180, 0}}},                 // equation 11
+      {kTrunk, "false", {{110, 0}, {125, 0}, {152.5, 0.5}, {180, 1}}},             // equation 12
+      {kRF, "inward", {{0, 1}, {30, 0.25}, {40, 0}, {90, 0}}},                     // equation 13
+      {kRF, "outward", {{0, 0}, {30, 0.75}, {40, 1}, {90, 1}}},                    // equation 14
+      {kRFK, "true", {{60, 1}, {90, 1}, {135, 0.5}, {180, 0}}},                    // equation 15
+      {kRFK, "false", {{90, 0}, {100, 0}, {140, 0.5}, {180, 1}}},                  // equation 16
   };
   std::set<std::string> covered;
-  for (const Sample& sample : samples) {
-    EXPECT_NEAR(GradeOf(sample.feature, sample.term, sample.input), sample.grade, 1e-12)
-        << FeatureName(sample.feature) << " " << sample.term << " at " << sample.input;
-    covered.insert(std::string(FeatureName(sample.feature)) + sample.term);
+  for (const auto& [feature, term, grades] : equations) {
+    for (const auto& [input, grade] : grades) {
+      EXPECT_NEAR(GradeOf(feature, term, input), grade, 1e-12)
+          << FeatureName(feature) << " " << term << " at " << input;
+    }
+    covered.insert(std::string(FeatureName(feature)) + term);
   }
   EXPECT_EQ(covered.size(), 15u) << "one function per equation";
 }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +6,7 @@
 #include <vector>
 
 #include "engine/retargeting/up_axis.h"
+#include "tests/engine/retargeting/standing_person.h"
 
 namespace etude::floor_work {
 namespace {
@@ -17,29 +17,9 @@ using ::testing::Not;
 
 constexpr double kRate_hz = 50;
 
-/// Returns a person who stands and faces +Z; metres, Y up.
-BodyPose Standing() {
-  BodyPose pose;
-  pose[kHipCentre] = {0, .9, 0};
-  pose[kSpine] = {0, 1.15, 0};
-  pose[kShoulderCentre] = {0, 1.4, 0};
-  pose[kHead] = {0, 1.6, 0};
-  for (const double side : {1.0, -1.0}) {
-    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
-    pose[of(kLeftShoulder)] = {side * .18, 1.4, 0};
-    pose[of(kLeftElbow)] = {side * .2, 1.1, 0};
-    pose[of(kLeftWrist)] = {side * .2, .85, 0};
-    pose[of(kLeftHand)] = {side * .2, .75, 0};
-    pose[of(kLeftHip)] = {side * .09, .9, 0};
-    pose[of(kLeftKnee)] = {side * .09, .48, 0};
-    pose[of(kLeftAnkle)] = {side * .09, .07, 0};
-    pose[of(kLeftFoot)] = {side * .09, .02, .17};
-  }
-  return pose;
-}
-
-void Move(BodyPose& pose, const std::function<glm::dvec3(const glm::dvec3&)>& place) {
+BodyPose Moved(BodyPose pose, const std::function<glm::dvec3(const glm::dvec3&)>& place) {
   for (glm::dvec3& joint : pose.joints) joint = place(joint);
+  return pose;
 }
 
 /// Rotates about X, forwards: a standing person then lies face down with the head towards +Z.
@@ -49,7 +29,7 @@ glm::dvec3 Bowed(const glm::dvec3& p, double degrees) {
 }
 
 BodyPose Crawling(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   pose[kHipCentre] = {0, .47, 0};
   pose[kSpine] = {0, .5, .25};
   pose[kShoulderCentre] = {0, .5, .5};
@@ -66,15 +46,14 @@ BodyPose Crawling(double time_s) {
     pose[of(kLeftAnkle)] = {side * .09, .06, -.42 - swing};
     pose[of(kLeftFoot)] = {side * .09, .02, -.55 - swing};
   }
-  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, 0, .5 * time_s); });
-  return pose;
+  return Moved(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, 0, .5 * time_s); });
 }
 
 BodyPose PushingUp(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   const double rise = 13 + 6 * std::sin(3 * time_s);  // degrees
-  Move(pose,
-       [&](const glm::dvec3& p) { return Bowed(p - glm::dvec3(0, .02, .17), 90 - rise) + glm::dvec3(0, .03, 0); });
+  pose = Moved(
+      pose, [&](const glm::dvec3& p) { return Bowed(p - glm::dvec3(0, .02, .17), 90 - rise) + glm::dvec3(0, .03, 0); });
   for (const double side : {1.0, -1.0}) {
     const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
     pose[of(kLeftWrist)] = {side * .25, .05, 1.3};
@@ -85,45 +64,40 @@ BodyPose PushingUp(double time_s) {
 }
 
 BodyPose Swimming(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 90) + glm::dvec3(0, .9, 1.2 * time_s); });
-  return pose;
+  return Moved(testing::StandingPerson(),
+               [&](const glm::dvec3& p) { return Bowed(p, 90) + glm::dvec3(0, .9, 1.2 * time_s); });
 }
 
 /// A cartwheel along +Z, turning about X.
 BodyPose Wheeling(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose,
-       [&](const glm::dvec3& p) { return Bowed(p - glm::dvec3(0, .9, 0), 120 * time_s) + glm::dvec3(0, .95, time_s); });
-  return pose;
+  return Moved(testing::StandingPerson(), [&](const glm::dvec3& p) {
+    return Bowed(p - glm::dvec3(0, .9, 0), 120 * time_s) + glm::dvec3(0, .95, time_s);
+  });
 }
 
 /// Lies on the back, two metres from the origin.
 BodyPose LyingAway(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1, 2); });
+  BodyPose pose = testing::StandingPerson();
+  pose = Moved(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1, 2); });
   pose[kLeftWrist].y += .1 * (1 + std::sin(3 * time_s));
   return pose;
 }
 
 /// Lies stretched out on the back, in the pose of a person who stands straight, and hardly moves.
 BodyPose LyingStraight(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .03 + .001 * std::sin(time_s), 0); });
-  return pose;
+  return Moved(testing::StandingPerson(),
+               [&](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .03 + .001 * std::sin(time_s), 0); });
 }
 
 /// Lies on a bed; only the arms move.
 BodyPose LyingInBed(double time_s) {
-  BodyPose pose = LyingAway(time_s);
-  Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(.4, .55, -2.3); });
-  return pose;
+  return Moved(LyingAway(time_s), [](const glm::dvec3& p) { return p + glm::dvec3(.4, .55, -2.3); });
 }
 
 /// Lies on a bench with the feet on the floor.
 BodyPose PressingOnABench(double time_s) {
   BodyPose pose = LyingAway(time_s);
-  Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, .4, 1.1 - 2); });
+  pose = Moved(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, .4, 1.1 - 2); });
   for (const double side : {1.0, -1.0}) {
     const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
     const double x = side * .1, hip_z = pose[of(kLeftHip)].z;
@@ -138,7 +112,7 @@ BodyPose PressingOnABench(double time_s) {
 
 /// Lies face down and lifts the chest.
 BodyPose LiftingTheChest(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   const double lift = 30 + 15 * std::sin(time_s);
   for (const Role role : AllRoles()) {
     glm::dvec3& joint = pose[role];
@@ -149,15 +123,14 @@ BodyPose LiftingTheChest(double time_s) {
 }
 
 BodyPose StandingStill(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(.01 * p.y * std::sin(time_s), 0, 2); });
-  return pose;
+  return Moved(testing::StandingPerson(),
+               [&](const glm::dvec3& p) { return p + glm::dvec3(.01 * p.y * std::sin(time_s), 0, 2); });
 }
 
 /// Sits at a desk, both hands on it.
 BodyPose Sitting(double time_s) {
   BodyPose pose = StandingStill(time_s);
-  Move(pose, [&](const glm::dvec3& p) { return p - glm::dvec3(0, .42, 0); });
+  pose = Moved(pose, [&](const glm::dvec3& p) { return p - glm::dvec3(0, .42, 0); });
   for (const double side : {1.0, -1.0}) {
     const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
     pose[of(kLeftElbow)] = {side * .2, .75, 2.2};
@@ -172,10 +145,10 @@ BodyPose Sitting(double time_s) {
 
 /// Goes up stairs towards +Z; one foot stands while the other is lifted.
 BodyPose ClimbingStairs(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   const double way = .5 * time_s;
   const auto stairs = [&](double z) { return .6 * z; };
-  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, stairs(way), way); });
+  pose = Moved(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, stairs(way), way); });
   for (const bool is_left : {true, false}) {
     const double phase = way / .3 + (is_left ? 0 : 1), cycle = std::floor(phase / 2), swing = phase - 2 * cycle - 1;
     const double at = .6 * cycle + .6 * std::max(0.0, swing) - (is_left ? 0 : .3) + .15;
@@ -193,14 +166,13 @@ BodyPose ClimbingStairs(double time_s) {
 BodyPose Bouncing(double time_s) {
   BodyPose pose = StandingStill(time_s);
   const double flight = std::fmod(time_s, 1.8);
-  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, .5 * 9.81 * flight * (1.8 - flight), 0); });
-  return pose;
+  return Moved(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(0, .5 * 9.81 * flight * (1.8 - flight), 0); });
 }
 
 /// Pushes against a wall, standing half a metre from it.
 BodyPose LeaningOnAWall(double time_s) {
-  BodyPose pose = Standing();
-  Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 15) + glm::dvec3(0, 0, 2); });
+  BodyPose pose = testing::StandingPerson();
+  pose = Moved(pose, [&](const glm::dvec3& p) { return Bowed(p, 15) + glm::dvec3(0, 0, 2); });
   for (const double side : {1.0, -1.0}) {
     const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
     pose[of(kLeftWrist)] = {side * .25, 1.3, 2.75};
@@ -213,16 +185,12 @@ BodyPose LeaningOnAWall(double time_s) {
 
 /// Lies on the back with the shanks on a chair: the shape of a person who sits.
 BodyPose LyingWithRaisedShanks(double time_s) {
-  BodyPose pose = Sitting(time_s);
-  Move(pose, [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, -1.7, 0); });
-  return pose;
+  return Moved(Sitting(time_s), [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, -1.7, 0); });
 }
 
 /// Lies on one side with bent hips and knees.
 BodyPose LyingCurledUp(double time_s) {
-  BodyPose pose = Sitting(time_s);
-  Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.y, -p.x, p.z) + glm::dvec3(0, .2, 0); });
-  return pose;
+  return Moved(Sitting(time_s), [](const glm::dvec3& p) { return glm::dvec3(p.y, -p.x, p.z) + glm::dvec3(0, .2, 0); });
 }
 
 /// Lies on the back with the soles on the floor and the knees up.
@@ -234,8 +202,7 @@ BodyPose LyingWithRaisedKnees(double time_s) {
     pose[of(kLeftAnkle)] += glm::dvec3(0, .3, 0);
     pose[of(kLeftFoot)] = pose[of(kLeftAnkle)] + glm::dvec3(0, -.17, .05);
   }
-  Move(pose, [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1 - 2, 0); });
-  return pose;
+  return Moved(pose, [](const glm::dvec3& p) { return Bowed(p, -90) + glm::dvec3(0, .1 - 2, 0); });
 }
 
 /// Walks on a treadmill in a file whose origin is a metre above its belt.
@@ -248,8 +215,7 @@ BodyPose OnATreadmill(double time_s) {
       pose[role] += glm::dvec3(0, .1 * std::max(0.0, phase), .3 * std::cos(5 * time_s) * side);
     pose[of(kLeftKnee)] = .5 * (pose[of(kLeftAnkle)] + pose[of(kLeftHip)]) + glm::dvec3(0, 0, .1);
   }
-  Move(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1, 0); });
-  return pose;
+  return Moved(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1, 0); });
 }
 
 /// Bends the knees, with the origin at the height of the head.
@@ -260,13 +226,12 @@ BodyPose Squatting(double time_s) {
     if (pose[role].y > .6) pose[role].y -= down;
   }
   for (const Role role : {kLeftKnee, kRightKnee}) pose[role] += glm::dvec3(0, -.3 * down, .5 * down);
-  Move(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1.6, 0); });
-  return pose;
+  return Moved(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1.6, 0); });
 }
 
 /// Bends the hips from 0° to 60°.
 BodyPose Bowing(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   const double bow = 30 - 30 * std::cos(2 * time_s);
   for (glm::dvec3& joint : pose.joints) {
     const glm::dvec3 hips = {0, .9, 0};
@@ -277,14 +242,12 @@ BodyPose Bowing(double time_s) {
 }
 
 BodyPose SquattingOnTheFloor(double time_s) {
-  BodyPose pose = Squatting(time_s);
-  Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, 1.6, 0); });
-  return pose;
+  return Moved(Squatting(time_s), [](const glm::dvec3& p) { return p + glm::dvec3(0, 1.6, 0); });
 }
 
 /// Lies on the back and lifts head and shoulders by up to 45°.
 BodyPose DoingSitUps(double time_s) {
-  BodyPose pose = Standing();
+  BodyPose pose = testing::StandingPerson();
   const double lift = 22.5 - 22.5 * std::cos(2 * time_s);
   for (glm::dvec3& joint : pose.joints) {
     joint = Bowed(joint - glm::dvec3(0, .9, 0), joint.y > .89 ? lift - 90 : -90) + glm::dvec3(0, .1, 1.5);
@@ -293,21 +256,16 @@ BodyPose DoingSitUps(double time_s) {
 }
 
 BodyPose SittingBelow(double time_s) {
-  BodyPose pose = Sitting(time_s);
-  Move(pose, [](const glm::dvec3& p) { return p - glm::dvec3(0, 1.2, 0); });
-  return pose;
+  return Moved(Sitting(time_s), [](const glm::dvec3& p) { return p - glm::dvec3(0, 1.2, 0); });
 }
 
 BodyPose SwayingBelow(double time_s) {
-  BodyPose pose = StandingStill(time_s);
-  Move(pose, [&](const glm::dvec3& p) { return p + glm::dvec3(.02 * p.y * std::sin(time_s), -1.2, 0); });
-  return pose;
+  return Moved(StandingStill(time_s),
+               [&](const glm::dvec3& p) { return p + glm::dvec3(.02 * p.y * std::sin(time_s), -1.2, 0); });
 }
 
 BodyPose Walking(double time_s) {
-  BodyPose pose = ClimbingStairs(time_s);
-  Move(pose, [&](const glm::dvec3& p) { return p - glm::dvec3(0, .3 * time_s, 0); });
-  return pose;
+  return Moved(ClimbingStairs(time_s), [&](const glm::dvec3& p) { return p - glm::dvec3(0, .3 * time_s, 0); });
 }
 
 struct Act {
@@ -320,8 +278,9 @@ std::vector<BodyPose> Film(const Act& act, int quarters, bool is_z_up) {
   std::vector<BodyPose> poses;
   for (int frame = 0; frame < 300; ++frame) {
     BodyPose& pose = poses.emplace_back(act.pose(frame / kRate_hz));
-    for (int i = 0; i < quarters; ++i) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.z, p.y, -p.x); });
-    if (is_z_up) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.z, p.y); });
+    for (int i = 0; i < quarters; ++i)
+      pose = Moved(pose, [](const glm::dvec3& p) { return glm::dvec3(p.z, p.y, -p.x); });
+    if (is_z_up) pose = Moved(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.z, p.y); });
   }
   return poses;
 }
@@ -353,11 +312,10 @@ TEST(FloorWork, PeopleWhoSitAreUprightWhateverTheUsualAxis) {
     const std::vector<BodyPose> z_up = Film({"sitting", &Sitting}, quarters, true);
     // If the file or its format states another axis, this is doubted. A camera's frame has Y down.
     std::vector<BodyPose> y_down = y_up;
-    for (BodyPose& pose : y_down) Move(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.y, -p.z); });
-    EXPECT_EQ(
-        FindUp(y_up, kRate_hz, AmassUp()).doubt,
-        "Z is the convention of AMASS, but the body sits along Y, or lies with bent hips and knees; --up sets "
-        "another axis");
+    for (BodyPose& pose : y_down) pose = Moved(pose, [](const glm::dvec3& p) { return glm::dvec3(p.x, -p.y, -p.z); });
+    EXPECT_EQ(FindUp(y_up, kRate_hz, AmassUp()).doubt,
+              "Z is the convention of AMASS, but the body sits along Y, or lies with bent hips and knees; --up sets "
+              "another axis");
     EXPECT_THAT(FindUp(y_down, kRate_hz, AmassUp()).doubt, HasSubstr("the body sits along −Y"));
     EXPECT_THAT(FindUp(z_up, kRate_hz, of_file).doubt, HasSubstr("the body sits along Z"));
     // If it is only a guess, the axis of the posture is taken, unless the body may lie on one side.
@@ -439,7 +397,7 @@ TEST(FloorWork, WhoIsStretchedOutOnTheFloorDoesNotStandAlongAnotherAxis) {
     EXPECT_EQ(FindUp(Film(lying, quarters, true), kRate_hz, AmassUp()).doubt, "") << quarters;
     // The control: the same body far above the floor.
     std::vector<BodyPose> above = Film(lying, quarters, false);
-    for (BodyPose& pose : above) Move(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, 2, 0); });
+    for (BodyPose& pose : above) pose = Moved(pose, [](const glm::dvec3& p) { return p + glm::dvec3(0, 2, 0); });
     EXPECT_THAT(FindUp(above, kRate_hz, C3dUp('Y', false)).doubt, HasSubstr("the body stands along")) << quarters;
   }
 }
@@ -449,7 +407,7 @@ TEST(FloorWork, OfAmassFarFromItsFloorIsDoubtedIfTheBodyIsNeverUpright) {
     // The frame of a camera that looks down by some degrees: Y down, Z ahead.
     std::vector<BodyPose> poses = Film(act, 0, false);
     for (BodyPose& pose : poses) {
-      Move(pose, [&](const glm::dvec3& p) { return Bowed(p, 180 + degrees) + glm::dvec3(0, 1, away); });
+      pose = Moved(pose, [&](const glm::dvec3& p) { return Bowed(p, 180 + degrees) + glm::dvec3(0, 1, away); });
     }
     return FindUp(poses, kRate_hz, AmassUp()).doubt;
   };

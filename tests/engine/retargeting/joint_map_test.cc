@@ -42,6 +42,12 @@ void InsertAbove(Skeleton& skeleton, const std::string& child, const std::string
   skeleton.joints[at + 1].parent = at;
 }
 
+BodyPose BodyInMotion(const Clip& clip, const JointMap& map) {
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(clip.skeleton, clip.frames.front(), globals);
+  return Evaluate(map, globals);
+}
+
 TEST(JointMap, TakesCmusShoulderForTheCollarBoneAndItsSecondNeckForTheNeck) {
   Skeleton cmu = testing::PersonSkeleton();
   cmu.joints[cmu.Find("Neck")].name = "Neck1";
@@ -219,12 +225,6 @@ Clip TurnedAtRest(const glm::dquat& head, const glm::dquat& foot) {
   return clip;
 }
 
-BodyPose BodyInMotion(const Clip& clip, const JointMap& map) {
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(clip.skeleton, clip.frames.front(), globals);
-  return Evaluate(map, globals);
-}
-
 TEST(JointMap, JudgesTipsInMotionWhereTheRestPoseIsNone) {
   const glm::dquat back = testing::Turn(-1.6, {1, 0, 0}), up = testing::Turn(-2.2, {1, 0, 0});
   const Clip clip = TurnedAtRest(back, up);
@@ -307,9 +307,7 @@ TEST(JointMap, ComposedPointsTurnWithTheirJoint) {
   ASSERT_OK(map, FindJointMap(mass, "mass.bvh"));
   Clip clip = testing::AtRest(mass);
   testing::At(clip, 0, "LeftHand").rotation = testing::Turn(std::numbers::pi / 2, {0, 0, 1});
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(mass, clip.frames[0], globals);
-  ExpectNear(Evaluate(*map, globals)[kLeftHand], {72, 155, 0});
+  ExpectNear(BodyInMotion(clip, *map)[kLeftHand], {72, 155, 0});
 }
 
 glm::dquat FromX(const glm::dvec3& direction) {
@@ -336,9 +334,7 @@ Clip FoldedAtRest() {
 TEST(JointMap, FindsThePersonWhoseRestPoseIsFoldedUp) {
   const Clip folded = FoldedAtRest();
   ASSERT_OK(map, FindJointMap(folded.skeleton, "folded.bvh"));
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(folded.skeleton, folded.frames[0], globals);
-  const BodyPose body = Evaluate(*map, globals);
+  const BodyPose body = BodyInMotion(folded, *map);
   ExpectNear(body[kSpine], {0, 115, 0});
   ExpectNear(body[kHead], {0, 165, 0});
   ExpectNear(body[kRightHand], {-90, 137, 0});
@@ -353,9 +349,7 @@ TEST(JointMap, KeepsTheHipCentreMidwayWhenTheHipsThemselvesMove) {
   ASSERT_OK(map, FindJointMap(person, "person.bvh"));
   Clip clip = testing::AtRest(person);
   testing::At(clip, 0, "LeftUpLeg").translation = {11, -5, 4};
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(person, clip.frames[0], globals);
-  ExpectNear(Evaluate(*map, globals)[kHipCentre], {1, 90, 2});
+  ExpectNear(BodyInMotion(clip, *map)[kHipCentre], {1, 90, 2});
 }
 
 /// Returns the skeleton in the same rest pose as glTF exporters write it: arbitrary joint frames, a scale in a node

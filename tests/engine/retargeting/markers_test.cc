@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/retargeting/marker_sets.h"
+#include "tests/engine/retargeting/standing_person.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -20,24 +21,8 @@ constexpr std::size_t kTakeFrames = 40;
 
 /// Returns a person who stands, faces +Z and sways; metres, Y up.
 BodyPose StandingAt(std::size_t frame) {
-  const double sway = 0.01 * static_cast<double>(frame);
-  BodyPose pose;
-  const auto put = [&](Role role, double x, double y, double z) { pose[role] = {x + sway, y, z}; };
-  put(Role::kHipCentre, 0, 0.9, 0);
-  put(Role::kSpine, 0, 1.15, 0);
-  put(Role::kShoulderCentre, 0, 1.4, 0);
-  put(Role::kHead, 0, 1.6, 0);
-  for (const double side : {1.0, -1.0}) {
-    const auto of = [&](Role role) { return side > 0 ? role : Mirrored(role); };
-    put(of(Role::kLeftShoulder), side * 0.18, 1.4, 0);
-    put(of(Role::kLeftElbow), side * 0.2, 1.1, 0);
-    put(of(Role::kLeftWrist), side * 0.2, 0.85, 0);
-    put(of(Role::kLeftHand), side * 0.2, 0.7, 0);
-    put(of(Role::kLeftHip), side * 0.09, 0.9, 0);
-    put(of(Role::kLeftKnee), side * 0.09, 0.48, 0);
-    put(of(Role::kLeftAnkle), side * 0.09, 0.07, 0);
-    put(of(Role::kLeftFoot), side * 0.09, 0.02, 0.17);
-  }
+  BodyPose pose = testing::StandingPerson();
+  for (glm::dvec3& joint : pose.joints) joint.x += 0.01 * static_cast<double>(frame);
   return pose;
 }
 
@@ -83,6 +68,20 @@ double FurthestJoint(const BodyMotion& motion, double floor = 0) {
   return furthest;
 }
 
+/// Returns the note on the first body of the markers, or the reason why there is none.
+std::string NoteOf(const MarkerMotion& markers, const MarkerOptions& options = {}) {
+  const auto bodies = FindMarkerBodies(markers, "a.trc", options);
+  return bodies ? bodies->front().Note() : ToString(bodies.error());
+}
+
+/// Returns the take with each position changed.
+MarkerMotion Changed(MarkerMotion take, const std::function<glm::dvec3(const glm::dvec3&)>& place_of) {
+  for (auto& frame : take.frames) {
+    for (auto& place : frame) place = place_of(*place);
+  }
+  return take;
+}
+
 TEST(Markers, OfOurOwnNamesKeepTheirMeaningWithoutOneOfThem) {
   const auto without = [](Role missing) {
     std::vector<Placed> markers;
@@ -106,10 +105,7 @@ TEST(Markers, OfOurOwnNamesAreTheJointsAsTheyWereWritten) {
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12) << "the floor included";
   EXPECT_EQ(bodies->front().Note(), "Etude's joints");
   // A body half a metre or more above the floor is moved, with a note; --keep-floor keeps it.
-  MarkerMotion take = OwnJoints();
-  for (auto& frame : take.frames) {
-    for (auto& place : frame) place->y += 0.7;
-  }
+  const MarkerMotion take = Changed(OwnJoints(), [](const glm::dvec3& place) { return place + glm::dvec3(0, 0.7, 0); });
   const auto moved = FindMarkerBodies(take, "a.trc"), kept = FindMarkerBodies(take, "a.trc", {.keep_floor = true});
   EXPECT_EQ(moved->front().Note(), "Etude's joints; Etude moved the floor from 72 cm to 0");
   EXPECT_EQ(kept->front().Note(), "Etude's joints");
@@ -271,10 +267,7 @@ TEST(MarkersUp, OfPeopleWithRaisedArmsInAFileWhoseAxesPointDownIsNotThatOfAHands
 
 TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   const std::vector<BodyPose> poses = Frames(StandingAt);
-  const auto changes = [](MarkerMotion markers) {
-    const auto bodies = FindMarkerBodies(std::move(markers), "a.trc", {.up = TrcUp()});
-    return bodies ? bodies->front().Note() : ToString(bodies.error());
-  };
+  const auto changes = [](const MarkerMotion& markers) { return NoteOf(markers, {.up = TrcUp()}); };
   MarkerMotion markers = Keypoints(poses);
   const std::string control = changes(markers);
   EXPECT_THAT(control, Not(HasSubstr("as far away")));
@@ -307,10 +300,7 @@ TEST(Markers, ThatAreExchangedBetweenLeftAndRightAreNamed) {
       for (const Role role : {Role::kLeftAnkle, Role::kLeftFoot}) poses[t][of(role)].z -= 2 * side * swing;
     }
   }
-  const auto note = [](const MarkerMotion& markers) {
-    const auto bodies = FindMarkerBodies(markers, "a.trc", {.up = TrcUp()});
-    return bodies ? bodies->front().Note() : ToString(bodies.error());
-  };
+  const auto note = [](const MarkerMotion& markers) { return NoteOf(markers, {.up = TrcUp()}); };
   const MarkerMotion right = Keypoints(poses);
   EXPECT_THAT(note(right), Not(HasSubstr("exchanged")));
   EXPECT_THAT(note(Keypoints(Frames(StandingAt))), Not(HasSubstr("exchanged")));
@@ -336,16 +326,12 @@ TEST(Markers, ThatAreNotUsedDoNotDecideWhichAreFarAway) {
     for (int i = 0; i < 40; ++i) frame.emplace_back(glm::dvec3(0.001 * i, 0.0005, -0.001 * i));
   }
   for (int i = 0; i < 40; ++i) take.names.push_back("Output" + std::to_string(i));
-  const auto changes = [](const MarkerMotion& markers) {
-    const auto bodies = FindMarkerBodies(markers, "a.c3d");
-    return bodies ? fmt::format("{} frames; {}", bodies->front().motion.poses.size(), bodies->front().Note())
-                  : ToString(bodies.error());
-  };
-  EXPECT_EQ(changes(take), "40 frames; Etude's joints");
+  EXPECT_EQ(NoteOf(take), "Etude's joints");
+  EXPECT_EQ(FindMarkerBodies(take, "a.c3d")->front().motion.poses.size(), kTakeFrames);
   // The control: a used marker that is lost is still a gap.
   for (std::size_t t = 10; t < 14; ++t) take.frames[t].front() = glm::dvec3(0, -9999, 0);
-  EXPECT_THAT(changes(take), HasSubstr("Etude treats 4 positions as missing, because they are a hundred times as far "
-                                       "away as the others"));
+  EXPECT_THAT(NoteOf(take), HasSubstr("Etude treats 4 positions as missing, because they are a hundred times as far "
+                                      "away as the others"));
 }
 
 TEST(Markers, OfThreeEqualNumbersThatRecurAreGaps) {
@@ -369,8 +355,7 @@ TEST(Markers, OfALimbThatAreAlwaysAtZeroAreGaps) {
     MarkerMotion changed = markers;
     const auto column = std::ranges::find(markers.names, name) - markers.names.begin();
     for (auto& frame : changed.frames) frame[static_cast<std::size_t>(column)] = glm::dvec3(0);
-    const auto bodies = FindMarkerBodies(changed, "a.trc", {.up = TrcUp()});
-    return bodies ? bodies->front().Note() : ToString(bodies.error());
+    return NoteOf(changed, {.up = TrcUp()});
   };
   EXPECT_THAT(at_zero("LBigToe"), HasSubstr("left_foot; Etude treats 60 positions at (0, 0, 0) as missing"));
   EXPECT_THAT(at_zero("LKnee"), HasSubstr("lacks left_knee"));
@@ -513,32 +498,22 @@ TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
 
 TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
   for (const double factor : {1000.0, 10.0, 0.1, 0.001}) {
-    MarkerMotion take = OwnJoints();
-    for (auto& frame : take.frames) {
-      for (auto& place : frame) *place *= factor;
-    }
+    const MarkerMotion take = Changed(OwnJoints(), [&](const glm::dvec3& place) { return factor * place; });
     ASSERT_OK(bodies, FindMarkerBodies(take, "a.trc"));
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
     EXPECT_THAT(bodies->front().Note(),
                 HasSubstr(fmt::format("m tall, so Etude multiplies all lengths by {:g}", 1 / factor)));
   }
-  MarkerMotion take = OwnJoints();
-  for (auto& frame : take.frames) {
-    for (auto& place : frame) *place *= 4;
-  }
+  const MarkerMotion take = Changed(OwnJoints(), [](const glm::dvec3& place) { return 4.0 * place; });
   EXPECT_THAT(testing::Refusal(FindMarkerBodies(take, "a.trc")),
               HasSubstr("a.trc: the markers show a body 6.65 m tall"));
 }
 
 TEST(Markers, InAUnitThatMakesADwarfOrAGiantAreSaidWithTheLikelyUnit) {
   const auto note = [](double factor, double metres_per_unit) {
-    MarkerMotion take = OwnJoints();
+    MarkerMotion take = Changed(OwnJoints(), [&](const glm::dvec3& place) { return factor * place; });
     take.metres_per_unit = metres_per_unit;
-    for (auto& frame : take.frames) {
-      for (auto& place : frame) *place *= factor;
-    }
-    const auto bodies = FindMarkerBodies(take, "a.trc");
-    return bodies ? bodies->front().Note() : ToString(bodies.error());
+    return NoteOf(take);
   };
   EXPECT_EQ(note(1, .01), "Etude's joints");
   EXPECT_THAT(note(.01 / .0254, .01), HasSubstr("Etude uses 1 unit = 1 cm; with 1 unit = 2.54 cm (inch), the body "

@@ -9,6 +9,7 @@
 
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/markers.h"
+#include "tests/engine/retargeting/standing_person.h"
 #include "tests/support/results.h"
 
 namespace etude {
@@ -25,28 +26,6 @@ struct Placed {
   glm::dvec3 off = glm::dvec3(0);
 };
 
-/// Returns a person who stands and faces +Z: hips 0.18 m apart, thighs and shanks of 0.42 m; metres, Y up.
-BodyPose StandingSubject() {
-  BodyPose pose;
-  pose[kHipCentre] = {0, 0.9, 0};
-  pose[kSpine] = {0, 1.15, 0};
-  pose[kShoulderCentre] = {0, 1.4, 0};
-  pose[kHead] = {0, 1.6, 0};
-  const auto put = [&](Role left, double x, double y, double z) {
-    pose[left] = {x, y, z};
-    pose[Mirrored(left)] = {-x, y, z};
-  };
-  put(kLeftShoulder, 0.18, 1.4, 0);
-  put(kLeftElbow, 0.2, 1.1, 0);
-  put(kLeftWrist, 0.2, 0.85, 0);
-  put(kLeftHand, 0.2, 0.7, 0);
-  put(kLeftHip, 0.09, 0.9, 0);
-  put(kLeftKnee, 0.09, 0.48, 0);
-  put(kLeftAnkle, 0.09, 0.06, 0);
-  put(kLeftFoot, 0.09, 0.02, 0.17);
-  return pose;
-}
-
 /// Returns ten frames; markers whose names have '?' are on both sides, named by `left` and `right`.
 MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = "L.", const std::string& right = "R.") {
   MarkerMotion take{.rate_hz = 50, .names = {}, .frames = decltype(MarkerMotion::frames)(10)};
@@ -57,7 +36,7 @@ MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = 
       std::string full = name;
       if (at != std::string::npos) full.replace(at, 1, is_left ? left : right);
       take.names.push_back(full);
-      const glm::dvec3 place = StandingSubject()[is_left ? role : Mirrored(role)];
+      const glm::dvec3 place = testing::StandingPerson()[is_left ? role : Mirrored(role)];
       for (auto& frame : take.frames) frame.emplace_back(place + glm::dvec3(is_left ? off.x : -off.x, off.y, off.z));
     }
   }
@@ -81,7 +60,7 @@ std::vector<Placed> HelenHayes() {
 std::pair<double, Role> Furthest(const MarkerBody& body) {
   std::pair<double, Role> furthest{0, kHead};
   for (const Role role : kNeededJoints) {
-    const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, body.floor, 0);
+    const glm::dvec3 wanted = testing::StandingPerson()[role] - glm::dvec3(0, body.floor, 0);
     furthest = std::max(furthest, std::pair(glm::distance(body.motion.poses.front()[role], wanted), role));
   }
   return furthest;
@@ -95,7 +74,7 @@ TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
     const auto [distance, role] = Furthest(bodies->front());
     EXPECT_LT(distance, 0.02) << left << RoleName(role);
     EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[kLeftHip] + glm::dvec3(0, bodies->front().floor, 0),
-                            StandingSubject()[kLeftHip]),
+                            testing::StandingPerson()[kLeftHip]),
               1e-9);
     EXPECT_THAT(bodies->front().Note(),
                 HasSubstr("skin markers (Helen Hayes); Etude placed joint centres under the skin"));
@@ -112,7 +91,7 @@ TEST(HelenHayes, JointsWithAnInnerMarkerAreMidwayAndStay) {
   ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
   const MarkerBody& body = bodies->front();
   for (const Role role : {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle}) {
-    const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, body.floor, 0);
+    const glm::dvec3 wanted = testing::StandingPerson()[role] - glm::dvec3(0, body.floor, 0);
     EXPECT_LT(glm::distance(body.motion.poses.front()[role], wanted), 1e-9) << RoleName(role);
   }
   EXPECT_THAT(body.Note(), Not(HasSubstr("knees")));
@@ -138,7 +117,7 @@ TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
   markers.push_back({"?KneeCentre", kLeftKnee});
   ASSERT_OK(told, FindMarkerBodies(Take(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
   EXPECT_LT(glm::distance(told->front().motion.poses.front()[kLeftKnee],
-                          StandingSubject()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
+                          testing::StandingPerson()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
             1e-9);
 }
 
@@ -150,7 +129,7 @@ TEST(SkinMarkers, NamedLikeKeypointsAreNotKeypoints) {
   ASSERT_OK(skin, FindMarkerBodies(Take(markers, "L", "R"), "a.trc"));
   EXPECT_THAT(skin->front().Note(), HasSubstr("skin markers"));
   EXPECT_LT(glm::distance(skin->front().motion.poses.front()[kLeftHip],
-                          StandingSubject()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
+                          testing::StandingPerson()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
             0.02);
   // The control: with all names of BODY_25, the keypoints count.
   for (const char* name : {"MidHip", "Neck"}) markers.push_back({name, name[0] == 'N' ? kShoulderCentre : kHipCentre});
@@ -196,7 +175,7 @@ TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
     const auto bodies = FindMarkerBodies(Take(markers, "L", "R"), "a.trc");
     ASSERT_TRUE(bodies) << ToString(bodies.error());
     for (const Role role : {kLeftElbow, kRightElbow, kLeftWrist, kRightKnee, kLeftKnee, kRightAnkle, kLeftAnkle}) {
-      const glm::dvec3 wanted = StandingSubject()[role] - glm::dvec3(0, bodies->front().floor, 0);
+      const glm::dvec3 wanted = testing::StandingPerson()[role] - glm::dvec3(0, bodies->front().floor, 0);
       EXPECT_LT(glm::distance(bodies->front().motion.poses.front()[role], wanted), 1e-9)
           << rows[1].name << RoleName(role);
     }

@@ -298,11 +298,16 @@ TEST(ToBodyMotion, RefusesSwappedSides) {
             "the left arm is on the side of the right leg, so left and right are exchanged");
 }
 
-TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
-  Skeleton bare = testing::PersonSkeleton();
-  for (Joint& joint : bare.joints) {
+Skeleton WithoutToes() {
+  Skeleton person = testing::PersonSkeleton();
+  for (Joint& joint : person.joints) {
     if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
   }
+  return person;
+}
+
+TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
+  const Skeleton bare = WithoutToes();
   ASSERT_TRUE(Convert(AtRest(bare))) << "straight legs prove nothing";
   for (const int sign : {1, -1}) {
     Clip crouching = AtRest(bare);
@@ -319,10 +324,7 @@ TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
 }
 
 TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
-  Skeleton bare = testing::PersonSkeleton();
-  for (Joint& joint : bare.joints) {
-    if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
-  }
+  const Skeleton bare = WithoutToes();
   for (const double degrees : {2.0, 10.0, 26.0, 40.0}) {
     for (const int elbows : {1, -1}) {
       Clip clip = AtRest(bare);
@@ -354,10 +356,7 @@ TEST(ToBodyMotion, KneesOfABackbendAreNotOverextended) {
 }
 
 TEST(ToBodyMotion, BelievesArmsBeforeTheBodyAndNoneBehindIt) {
-  Skeleton bare = testing::PersonSkeleton();
-  for (Joint& joint : bare.joints) {
-    if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
-  }
+  const Skeleton bare = WithoutToes();
   // Straight arms raised forwards or backwards, and knees overstretched by 40° in a fifth of the frames.
   for (const double raised : {1.2, -1.2}) {
     for (const double degrees : {0.0, 20.0}) {

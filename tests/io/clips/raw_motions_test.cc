@@ -106,6 +106,10 @@ TEST_F(RawMotionsTest, ArraysOfAnyJointsAreABodyByTheirNames) {
   EXPECT_NEAR(glm::distance(smaller->motion.poses[7][Role::kHead], 0.9 * body->motion.poses[7][Role::kHead]), 0, 1e-9);
 }
 
+constexpr std::pair<const char*, Role> kPairedJoints[] = {
+    {"Shoulder", Role::kLeftShoulder}, {"Elbow", Role::kLeftElbow}, {"Wrist", Role::kLeftWrist},
+    {"Hip", Role::kLeftHip},           {"Knee", Role::kLeftKnee},   {"Ankle", Role::kLeftAnkle}};
+
 /// A recording in the names of HALPE_26, as markers in metres; the head is the middle of nose and crown.
 MarkerMotion Keypoints() {
   const BodyPose pose = StandingPose();
@@ -113,13 +117,7 @@ MarkerMotion Keypoints() {
   const glm::dvec3 up(0, 0.1, 0);
   std::vector<std::optional<glm::dvec3>> row = {pose[Role::kHead] - up, pose[Role::kHead] + up,
                                                 pose[Role::kShoulderCentre], pose[Role::kHipCentre]};
-  using enum Role;
-  for (const auto& [name, role] : {std::pair("Shoulder", kLeftShoulder),
-                                   {"Elbow", kLeftElbow},
-                                   {"Wrist", kLeftWrist},
-                                   {"Hip", kLeftHip},
-                                   {"Knee", kLeftKnee},
-                                   {"Ankle", kLeftAnkle}}) {
+  for (const auto& [name, role] : kPairedJoints) {
     for (const bool is_left : {true, false}) {
       markers.names.push_back((is_left ? "L" : "R") + std::string(name));
       row.emplace_back(pose[is_left ? role : Mirrored(role)]);
@@ -182,12 +180,7 @@ TEST_F(RawMotionsTest, MarkersOfNoKnownSetHaveNoRolesUnlessAJointMapNamesThem) {
   // With a joint map of the needed joints they are read as a body, from a marker file and from an array.
   told.roles.emplace();
   using enum Role;
-  for (const auto& [name, role] : {std::pair("Shoulder", kLeftShoulder),
-                                   {"Elbow", kLeftElbow},
-                                   {"Wrist", kLeftWrist},
-                                   {"Hip", kLeftHip},
-                                   {"Knee", kLeftKnee},
-                                   {"Ankle", kLeftAnkle}}) {
+  for (const auto& [name, role] : kPairedJoints) {
     told.roles->joints[role] = {renamed("L" + std::string(name)), {}};
     told.roles->joints[Mirrored(role)] = {renamed("R" + std::string(name)), {}};
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "io/files/files.h"
@@ -20,6 +21,12 @@ class KeypointFiles : public ::testing::Test {
     const std::filesystem::path path = folder_.path() / name;
     EXPECT_TRUE(WriteFileAtomically(path, text));
     return path;
+  }
+  /// Returns `entry(0)`, `entry(1)`, …, separated by commas.
+  static std::string List(int count, const std::function<std::string(int)>& entry) {
+    std::string list;
+    for (int i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + entry(i);
+    return list;
   }
   /// Returns the numbers of a person who shows only the first keypoint.
   static std::string Triples(std::size_t count, const std::string& first = "10, 20, 0.5") {

@@ -286,11 +286,7 @@ TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
 }
 
 TEST_F(ReadPeople, ReadsOneListForEachCoordinate) {
-  const auto list = [](const std::string& entry) {
-    std::string entries;
-    for (int i = 0; i < 17; ++i) entries += (i == 0 ? "" : ", ") + entry;
-    return "[" + entries + "]";
-  };
+  const auto list = [](const std::string& entry) { return "[" + List(17, [&](int) { return entry; }) + "]"; };
   const auto person = [&](const std::string& points) {
     return R"([[{"name": "person", "class": 0, "box": {"x1": 1}, "keypoints": {)" + points + "}}], []]";
   };
@@ -319,9 +315,7 @@ TEST_F(ReadPeople, ReadsOneListForEachCoordinate) {
 }
 
 TEST_F(ReadPeople, TakesSharesOfThePicture) {
-  std::string points;
-  for (int i = 0; i < 33; ++i)
-    points += std::string(i == 0 ? "" : ", ") + R"({"x": 0.25, "y": 0.5, "z": 0, "visibility": 0.9})";
+  const std::string points = List(33, [](int) { return R"({"x": 0.25, "y": 0.5, "z": 0, "visibility": 0.9})"; });
   const auto path = Write("p.json", R"([{"pose_landmarks": [)" + points + R"(]}, {"pose_landmarks": null}])");
   ASSERT_OK(read, ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2}));
   EXPECT_EQ(read->frames[0][0][Landmark::kLeftHeel].pixel, glm::dvec2(160, 240));
@@ -350,11 +344,11 @@ TEST_F(ReadPeople, ConfidentKeypointsDecideWhetherCoordinatesAreShares) {
   const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 1};
   // Each landmark lies at (x, 0.5); those of `odd` lie at (far, far).
   const auto read = [&](int odd, double far, double sure, double x = 0.25) {
-    std::string points;
-    for (int i = 0; i < 33; ++i) {
-      points += fmt::format(R"({}{{"x": {}, "y": {}, "visibility": {}}})", i == 0 ? "" : ", ", i >= 33 - odd ? far : x,
-                            i >= 33 - odd ? far : 0.5, i >= 33 - odd ? sure : 0.9);
-    }
+    const std::string points = List(33, [&](int i) {
+      const bool is_odd = i >= 33 - odd;
+      return fmt::format(R"({{"x": {}, "y": {}, "visibility": {}}})", is_odd ? far : x, is_odd ? far : 0.5,
+                         is_odd ? sure : 0.9);
+    });
     return ReadKeypoints(Write("p.json", R"([{"pose_landmarks": [)" + points + "]}]"), "", film).value();
   };
   const auto nose = [](const PeopleOfFilm& people) { return people.frames[0][0][Landmark::kNose].pixel; };
@@ -377,8 +371,7 @@ TEST_F(ReadPeople, ConfidentKeypointsDecideWhetherCoordinatesAreShares) {
 }
 
 TEST_F(ReadPeople, TakesTheRangeOfOpenPosesScaleFour) {
-  std::string points;
-  for (int i = 0; i < 17; ++i) points += fmt::format("{}{}, {}, 0.9", i == 0 ? "" : ", ", 0.5, i < 9 ? -0.5 : 0.5);
+  const std::string points = List(17, [](int i) { return fmt::format("0.5, {}, 0.9", i < 9 ? -0.5 : 0.5); });
   Write("s/0.json", R"({"people": [{"pose_keypoints_2d": [)" + points + "]}]}");
   ASSERT_OK(film, ReadKeypoints(folder_.path() / "s", "", {.width = 640, .height = 480, .frames = 1}));
   EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(480, 120));
@@ -416,14 +409,10 @@ TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
 
 // Detectron2's scores are ratios without an upper limit: one peak must not hide all other keypoints.
 TEST_F(ReadPeople, LargeScoresHideNoKeypoints) {
-  std::string results;
-  for (int k = 0; k < 20; ++k) {
-    std::string points;
-    for (int i = 0; i < 17; ++i) {
-      points += fmt::format("{}{}, {}, {}", i == 0 ? "" : ", ", 10 + i, 20 + k, k == 3 && i == 5 ? 14.0 : 0.4);
-    }
-    results += fmt::format(R"({}{{"image_id": {}, "keypoints": [{}]}})", k == 0 ? "" : ", ", k, points);
-  }
+  const std::string results = List(20, [](int k) {
+    const auto point = [&](int i) { return fmt::format("{}, {}, {}", 10 + i, 20 + k, k == 3 && i == 5 ? 14.0 : 0.4); };
+    return fmt::format(R"({{"image_id": {}, "keypoints": [{}]}})", k, List(17, point));
+  });
   ASSERT_OK(film, ReadKeypoints(Write("results.json", "[" + results + "]"), ""));
   for (const auto& frame : film->frames) {
     EXPECT_EQ(frame.at(0)[Landmark::kNose].confidence, 0.4);
@@ -433,10 +422,7 @@ TEST_F(ReadPeople, LargeScoresHideNoKeypoints) {
 // Percentages, and raw scores of RTMPose. Without scaling, a keypoint of 5 % would count as certain.
 TEST_F(ReadPeople, ScoresAbove1AreScaledInEveryFormat) {
   const auto points = [](double scale) {
-    std::string list;
-    for (int i = 0; i < 17; ++i)
-      list += fmt::format("{}{}, 20, {}", i == 0 ? "" : ", ", 10 + i, scale * (i == 5 ? 0.05 : 0.9));
-    return list;
+    return List(17, [&](int i) { return fmt::format("{}, 20, {}", 10 + i, scale * (i == 5 ? 0.05 : 0.9)); });
   };
   for (const double scale : {1.0, 8.0, 100.0}) {
     const auto open_pose =
@@ -464,8 +450,7 @@ TEST_F(ReadPeople, ScoresAbove1AreScaledInEveryFormat) {
 // In one film, the person is seen half as well as in the other: all its keypoints count half.
 TEST_F(ReadPeople, FilmsShareTheScaleOfTheirScores) {
   const auto file = [&](const std::string& name, double score) {
-    std::string points;
-    for (int i = 0; i < 17; ++i) points += fmt::format("{}{}, 20, {}", i == 0 ? "" : ", ", 10 + i, score);
+    const std::string points = List(17, [&](int i) { return fmt::format("{}, 20, {}", 10 + i, score); });
     return Write(name, R"([{"frame": 0, "keypoints": [)" + points + "]}]");
   };
   const auto dim = file("dim.json", 40);
@@ -486,9 +471,8 @@ TEST_F(ReadPeople, FilmsShareTheScaleOfTheirScores) {
 
 TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
   const auto list = [&](const std::string& key) {
-    std::string points;
-    for (int i = 0; i < 17; ++i)
-      points += fmt::format(R"({}{{"x": {}, "y": 2, "{}": 0.02}})", i == 0 ? "" : ", ", i, key);
+    const std::string points =
+        List(17, [&](int i) { return fmt::format(R"({{"x": {}, "y": 2, "{}": 0.02}})", i, key); });
     return Write("points.json", R"([{"keypoints": [)" + points + "]}]");
   };
   for (const char* key : {"score", "conf", "likelihood"}) {
@@ -497,11 +481,7 @@ TEST_F(ReadPeople, ScoresHaveKnownNamesOrAreRefused) {
   }
   EXPECT_THAT(Reason(list("surety")), HasSubstr("a keypoint has the number 'surety' in addition to x and y"));
   const auto lists = [&](const std::string& key, const std::string& point) {
-    std::string points, scores;
-    for (int i = 0; i < 17; ++i) {
-      points += (i == 0 ? "" : ", ") + point;
-      scores += i == 0 ? "0.02" : ", 0.02";
-    }
+    const std::string points = List(17, [&](int) { return point; }), scores = List(17, [](int) { return "0.02"; });
     return Write("lists.json",
                  fmt::format(R"([{{"instances": [{{"keypoints": [{}], "{}": [{}]}}]}}])", points, key, scores));
   };
