@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "bench/model/reasons.h"
-#include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/watched_program.h"
 #include "sim/random/stream.h"

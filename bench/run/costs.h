@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bench/run/plan.h"
 #include "bench/scenario/scenario.h"
 #include "engine/base/result.h"
 #include "sim/random/stream.h"
@@ -49,5 +52,25 @@ struct Pace {
 /// Measures the speed of this machine: one copy of this process per worker repeats a fixed computation (a yardstick)
 /// for an eighth of a second.
 Result<Pace> MeasurePace(int workers);
+
+/// The expected work of each cell of a run. The remaining time of the run is estimated from these numbers.
+class ExpectedWork {
+ public:
+  /// `kept` are the stored costs (ReadKeptCosts). A cell of a scenario without stored cost counts as much as the other
+  /// cells do on average; if no cost is known, every cell counts 1. The plan must outlive this object.
+  ExpectedWork(const Plan& plan, const std::map<std::string, KeptCost>& kept);
+
+  /// `Of` returns the expected work of a cell, `OfWorld` the expected work of each cell in a world: in yardsticks if
+  /// any cost is known, else 1. The arguments are numbers in the plan.
+  double Of(std::size_t cell) const { return OfWorld(plan_.WorldOf(cell)); }
+  double OfWorld(std::size_t world) const { return per_cell_[static_cast<std::size_t>(plan_.world(world).scenario)]; }
+  /// Returns the expected wall time of a unit of work, seconds; 0 = unknown.
+  double SecondsEach(int workers) const { return is_known_ ? kYardstickS / workers : 0; }
+
+ private:
+  const Plan& plan_;
+  std::vector<double> per_cell_;  ///< by scenario
+  bool is_known_ = false;
+};
 
 }  // namespace etude

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bench/results/folder.h"
-#include "bench/run/expected_work.h"
+#include "bench/run/costs.h"
 #include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"

@@ -7,7 +7,6 @@
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/tasks/transition/world.h"
 #include "engine/transitions/joins/splice.h"
 
 namespace etude {

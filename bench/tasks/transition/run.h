@@ -11,7 +11,6 @@
 #include "bench/tasks/transition/options.h"
 #include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/tasks/transition/world.h"
 #include "bench/training/learnt_weights.h"
 #include "engine/transitions/choices/choice.h"
 

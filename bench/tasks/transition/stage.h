@@ -6,7 +6,9 @@
 #include "bench/metrics/transition_join.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/transition_record.h"
 #include "io/clips/clip_library.h"
+#include "sim/random/stream.h"
 
 namespace etude {
 
@@ -45,5 +47,12 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 double CalmerLimitCm(const Stage& stage, int from, int to);
 
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
+
+/// Returns the index of the clip that plays in this trial. The stage must contain clips.
+int FromClip(const Stage& stage, const WorldKey& key);
+
+/// Draws one trial: the clip that plays, the requested clip, and the time of the request. The method will set the
+/// waiting time. If this fails, the error is the reason why the world is skipped.
+Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key);
 
 }  // namespace etude

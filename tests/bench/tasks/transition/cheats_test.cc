@@ -16,7 +16,7 @@
 
 #include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/run.h"
-#include "bench/tasks/transition/world.h"
+#include "bench/tasks/transition/stage.h"
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/choices/choice.h"

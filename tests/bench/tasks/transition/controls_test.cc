@@ -11,7 +11,7 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/run.h"
-#include "bench/tasks/transition/world.h"
+#include "bench/tasks/transition/stage.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/crossfade.h"

@@ -7,7 +7,6 @@
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/transition/run.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/tasks/transition/world.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 #include "tests/engine/transitions/lying_clips.h"
