@@ -40,9 +40,7 @@ std::optional<double> ShareOf(const MetricAgreement& metric) {
   return metric.decided > 0 ? std::optional(static_cast<double>(metric.agreed) / metric.decided) : std::nullopt;
 }
 
-Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-Json OrNull(const std::optional<Interval>& interval) {
+Json EndsOf(const std::optional<Interval>& interval) {
   return interval ? Json{interval->low, interval->high} : Json(nullptr);
 }
 
@@ -53,7 +51,7 @@ Json FactsOf(const Preferences& found) {
                        {"wins", method.wins},
                        {"answers", method.answers},
                        {"preferred_share", OrNull(method.share)},
-                       {"interval", OrNull(method.interval)}});
+                       {"interval", EndsOf(method.interval)}});
   }
   for (const MetricAgreement& metric : found.metrics) {
     metrics.push_back({{"metric", metric.metric},
@@ -62,7 +60,7 @@ Json FactsOf(const Preferences& found) {
                        {"equal", metric.equal},
                        {"missing", metric.missing},
                        {"agreed_share", OrNull(ShareOf(metric))},
-                       {"interval", OrNull(metric.interval)}});
+                       {"interval", EndsOf(metric.interval)}});
   }
   for (const OneSidedRater& rater : found.one_sided) {
     one_sided.push_back({{"rater", rater.rater}, {"left", rater.left}, {"decided", rater.decided}});

@@ -1,13 +1,10 @@
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/facts.h"
-#include "cli/output_file.h"
-#include "cli/terminal_listener.h"
+#include "cli/progress_bar.h"
 #include "engine/cameras/dlt.h"
 #include "tools/calibrate/calibrate_rig.h"
 

@@ -30,8 +30,7 @@ struct RecordedPeople {
 /// Loads recordings and labels; returns null if there are none.
 Result<std::unique_ptr<LabelledStreams>> LoadPeople(const RecordedPeople& people) {
   if (people.streams.empty()) return nullptr;
-  ASSIGN_OR_RETURN(const auto clips, people.reading.ClipOptions());
-  ASSIGN_OR_RETURN(auto loaded, LoadStreams(people.streams, people.reading.Reading(), people.reading.Options(), clips));
+  ASSIGN_OR_RETURN(auto loaded, people.reading.Load(people.streams));
   LabelTexts labels;
   if (!people.labels.empty()) {
     ASSIGN_OR_RETURN(const auto files, LabelFiles(people.labels));

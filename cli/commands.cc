@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "bench/gate/baseline_file.h"
@@ -40,6 +41,22 @@ Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing) {
                                                                                   : BaselineSeal::kMustHold));
   TellUnsealed(baseline.unsealed);
   return baseline;
+}
+
+std::size_t CountCharacters(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string CountOf(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::vector<std::string> FirstLines(std::vector<std::string> lines, std::size_t most, std::string_view rest) {
+  const std::size_t count = lines.size();
+  if (count <= most) return lines;
+  lines.resize(most);
+  lines.push_back(fmt::format("and {} {}", count - most, rest));
+  return lines;
 }
 
 void PrintList(const std::string& title, const std::vector<std::string>& lines) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/gate/finished_run.h"
@@ -44,6 +45,12 @@ Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
 Result<std::optional<RunOutcome>> RunWithProgress(RunOptions options);
 /// Returns true if standard output was closed before the program started, so that nobody reads it.
 bool OutputWasClosed();
+/// Returns the number of characters of a UTF-8 text, which is its width on a terminal.
+std::size_t CountCharacters(std::string_view text);
+/// Returns "1 world", "3 worlds".
+std::string CountOf(std::size_t count, std::string_view what);
+/// Returns at most `most` of the lines. If there are more, "and N " and `rest` follow as a last line.
+std::vector<std::string> FirstLines(std::vector<std::string> lines, std::size_t most, std::string_view rest);
 /// Prints a title and indented lines; prints nothing if there are no lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
@@ -120,5 +127,9 @@ void DefineCompletion(CLI::App& app, Action& action);
 void DefineManual(CLI::App& app, Action& action);
 /// `etude crowd`: solves the poses of a crowd on one core, reports the time per frame, and makes a film of the crowd.
 void DefineCrowd(CLI::App& app, Action& action);
+
+/// Prints what a run would compute, how long it would take and which differences it could show, as text or as JSON.
+/// Returns the exit code.
+int DryRunCommand(const RunOptions& options, bool as_json);
 
 }  // namespace etude

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -17,7 +16,6 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/kinematics/body_tree.h"
 #include "io/files/files.h"

@@ -1,4 +1,4 @@
-#include "cli/dry_run.h"
+#include "bench/run/dry_run.h"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/run/dry_run.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
@@ -28,10 +27,6 @@ std::string Duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
   if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-std::string CountOf(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 /// Returns a difference, given in standard deviations, in the unit of the scenario's metric: ", about 1.2 mm of joint

@@ -2,8 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -16,7 +14,6 @@
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
-#include "cli/evaluate_alone.h"
 #include "cli/evaluate_parts.h"
 #include "cli/facts.h"
 #include "cli/named_results.h"
@@ -109,17 +106,16 @@ Result<std::string> ScenarioOf(const EvaluateOptions& options) {
 
 /// Returns, as JSON: the aggregates of every metric of every method, and the result folder.
 Json FactsOf(const ScenarioSummary& summary, const std::string& folder) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json methods = Json::array();
   for (const ConditionSummary& condition : summary.conditions) {
     for (const MethodSummary& method : condition.methods) {
       Json metrics = Json::array();
       for (const MetricSummary& metric : method.metrics) {
         metrics.push_back({{"metric", metric.id},
-                           {"median", number(metric.median)},
-                           {"mean", number(metric.mean)},
-                           {"low", number(metric.ci_low)},
-                           {"high", number(metric.ci_high)},
+                           {"median", OrNull(metric.median)},
+                           {"mean", OrNull(metric.mean)},
+                           {"low", OrNull(metric.ci_low)},
+                           {"high", OrNull(metric.ci_high)},
                            {"pairs", metric.present},
                            {"without", metric.missing}});
       }

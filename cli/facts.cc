@@ -5,13 +5,18 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+
+#include "engine/base/utf8.h"
 
 namespace etude {
 
 CLI::Option* AddJson(CLI::App& command, bool& as_json) {
   return command.add_flag("--json", as_json, "Print JSON (docs/schemas/facts.schema.json)");
 }
+
+Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Result<void> PrintFacts(const std::string& command, Json facts) {
   Json all = {{"command", command}, {"etude", ETUDE_VERSION}};
@@ -36,28 +41,22 @@ void StdoutToStderr::End() {
   output_ = -1;
 }
 
-Json FactsOf(const SnapshotComparison& comparison) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-  Json moves = Json::array();
-  for (const MetricMove& move : comparison.moves) {
-    if (move.movement == Movement::kSame) continue;
-    moves.push_back({{"scenario", move.identity.scenario},
-                     {"condition", move.identity.condition},
-                     {"method", move.identity.method},
-                     {"metric", move.identity.metric},
-                     {"movement", MovementWords(move.movement)},
-                     {"before", number(move.before)},
-                     {"after", number(move.after)},
-                     {"worlds", move.worlds},
-                     {"differing", move.differing},
-                     {"far_worse", move.tail.size()}});
-    if (!move.comparison.not_alike.empty()) moves.back()["not_alike"] = move.comparison.not_alike;
+Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_view ending) {
+  namespace fs = std::filesystem;
+  if (path.empty()) return {};
+  if (!path.ends_with(ending)) return Fail({path, 0, 0}, "has the wrong ending; allowed: {}", ending);
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(path, ignored);
+  if (!fs::exists(there)) return {};
+  if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; allowed: a file name");
+  // Refuse devices and pipes: WriteFileAtomically would replace a device instead of sending data to it.
+  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) {
+    return Fail({path, 0, 0}, "is a device, pipe or socket; allowed: the name of an ordinary file");
   }
-  return {{"comparisons", comparison.moves.size()},
-          {"moves", std::move(moves)},
-          {"only_before", comparison.only_before},
-          {"only_after", comparison.only_after},
-          {"settings_changed", comparison.settings_changed}};
+  if (overwrite) return {};
+  return Fail({path, 0, 0}, "already exists; use --overwrite to replace this file");
 }
+
+void TellWritten(const std::string& path, std::FILE* stream) { fmt::print(stream, "written: {}\n", Visible(path)); }
 
 }  // namespace etude

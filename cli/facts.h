@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdio>
+#include <optional>
 #include <string>
+#include <string_view>
 
-#include "bench/gate/comparison.h"
 #include "engine/base/result.h"
 #include "io/files/json.h"
 
@@ -15,6 +17,9 @@ namespace etude {
 
 /// Adds --json, for every command that prints facts.
 CLI::Option* AddJson(CLI::App& command, bool& as_json);
+
+/// Returns a value as JSON, null if there is none.
+Json OrNull(const std::optional<double>& value);
 
 /// Prints the findings of a command as one line of JSON with the members "command", "etude" (the version) and the
 /// members of `facts`, which is an object. docs/schemas/facts.schema.json holds the schema of this line under the name
@@ -37,8 +42,11 @@ class StdoutToStderr {
   int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
 
-/// Returns, as JSON, the metrics that changed between the two snapshots of a comparison, and the entries that only one
-/// of these snapshots has.
-Json FactsOf(const SnapshotComparison& comparison);
+/// Fails if a path does not end in `ending` (such as ".png"), if it names a folder or a device, or, without
+/// `overwrite`, an existing file. The path "" (no output) is fine.
+Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_view ending = "");
+
+/// Prints to `stream` that a file was written. Pass `stderr` if standard output must contain only JSON.
+void TellWritten(const std::string& path, std::FILE* stream = stdout);
 
 }  // namespace etude

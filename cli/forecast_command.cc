@@ -6,8 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
-#include "cli/output_file.h"
-#include "cli/terminal_listener.h"
+#include "cli/progress_bar.h"
 #include "engine/base/angles.h"
 #include "engine/keypoints/people.h"
 #include "tools/forecast/forecast_rig.h"
@@ -62,7 +61,7 @@ Json FactsOf(const RigForecast& forecast, const ForecastOptions& options) {
   }
   for (const ForecastJoint& joint : forecast.joints) {
     joints.push_back({{"joint", RoleName(joint.role)},
-                      {"noise_px", joint.noise_px ? Json(*joint.noise_px) : Json()},
+                      {"noise_px", OrNull(joint.noise_px)},
                       {"point_mm", joint.point_mm},
                       {"body_mm", joint.body_mm},
                       {"point_deg", joint.point_deg},

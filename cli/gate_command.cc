@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -90,15 +89,14 @@ void PrintReport(const GateReport& report) {
 
 /// Returns, as JSON, the worlds in which a metric became far worse.
 Json FarWorseWorlds(const GateReport& report, const RunData& run) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json worlds = Json::array();
   for (const MetricMove& move : report.comparison.moves) {
     for (const TailWorld& world : move.tail) {
       const std::string cell = CellOf(move.identity, world.trial);
       worlds.push_back({{"cell", cell},
                         {"metric", move.identity.metric},
-                        {"before", number(world.before)},
-                        {"after", number(world.after)},
+                        {"before", OrNull(world.before)},
+                        {"after", OrNull(world.after)},
                         {"status_before", StatusName(StatusOf(world.ended_before))},
                         {"status_after", StatusName(StatusOf(world.ended_after))},
                         {"fails", IsRegression(move)},

@@ -101,10 +101,6 @@ Result<int> ListClips() {
   return kSuccess;
 }
 
-std::string CountOf(int count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 /// Returns, as JSON, the scenarios in a folder; without a folder, the scenarios that come with the program, by name.
 Result<Json> ScenariosAsJson(const std::string& folder) {
   std::vector<std::string> names = ShippedScenarios();
@@ -160,8 +156,8 @@ Result<int> ListScenarios(const std::string& folder) {
     for (const Scenario& scenario : scenarios) {
       const bool is_of_files = FindTaskKind(scenario.task)->find_files != nullptr;
       fmt::print("  {} ({}): {}\n  {} × {} × methods {}\n", scenario.name, scenario.task, scenario.question,
-                 is_of_files ? "one trial per file" : CountOf(scenario.trials, "trial"),
-                 CountOf(static_cast<int>(scenario.conditions.size()), "condition"), Join(MethodNames(scenario)));
+                 is_of_files ? "one trial per file" : CountOf(static_cast<std::size_t>(scenario.trials), "trial"),
+                 CountOf(scenario.conditions.size(), "condition"), Join(MethodNames(scenario)));
     }
   }
   return kSuccess;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
+#include "cli/commands.h"
+#include "cli/facts.h"
 #include "reports/gate_table.h"
 
 namespace etude {
@@ -21,12 +24,6 @@ Line LineOf(const GateTableRow& row) {
           row.worlds};
 }
 
-/// Returns the number of characters, not bytes: continuation bytes of UTF-8 do not count.
-std::size_t WidthOf(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
@@ -37,15 +34,38 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
   for (std::size_t i = 0; i < std::min(max_rows, rows.size()); ++i) lines.push_back(LineOf(rows[i]));
   std::array<std::size_t, kMoveColumns> widths{};
   for (const Line& line : lines) {
-    for (std::size_t c = 0; c < kMoveColumns; ++c) widths[c] = std::max(widths[c], WidthOf(line[c]));
+    for (std::size_t c = 0; c < kMoveColumns; ++c) widths[c] = std::max(widths[c], CountCharacters(line[c]));
   }
   for (const Line& line : lines) {
     std::string text = " ";
     for (std::size_t c = 0; c < kMoveColumns; ++c)
-      text += " " + line[c] + std::string(widths[c] - WidthOf(line[c]) + 1, ' ');
+      text += " " + line[c] + std::string(widths[c] - CountCharacters(line[c]) + 1, ' ');
     fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
   }
   if (rows.size() > max_rows) fmt::print("  … and {} more\n", rows.size() - max_rows);
+}
+
+Json FactsOf(const SnapshotComparison& comparison) {
+  Json moves = Json::array();
+  for (const MetricMove& move : comparison.moves) {
+    if (move.movement == Movement::kSame) continue;
+    moves.push_back({{"scenario", move.identity.scenario},
+                     {"condition", move.identity.condition},
+                     {"method", move.identity.method},
+                     {"metric", move.identity.metric},
+                     {"movement", MovementWords(move.movement)},
+                     {"before", OrNull(move.before)},
+                     {"after", OrNull(move.after)},
+                     {"worlds", move.worlds},
+                     {"differing", move.differing},
+                     {"far_worse", move.tail.size()}});
+    if (!move.comparison.not_alike.empty()) moves.back()["not_alike"] = move.comparison.not_alike;
+  }
+  return {{"comparisons", comparison.moves.size()},
+          {"moves", std::move(moves)},
+          {"only_before", comparison.only_before},
+          {"only_after", comparison.only_after},
+          {"settings_changed", comparison.settings_changed}};
 }
 
 void PrintVersions(const std::string& before, const std::string& before_version, const std::string& after,

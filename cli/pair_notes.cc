@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string_view>
 
 #include "bench/model/reasons.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
+#include "cli/commands.h"
 #include "io/files/json.h"
 
 namespace etude {
@@ -40,12 +39,8 @@ void DoubtList::Add(const Row& row) {
 }
 
 void DoubtList::Tell() const {
-  constexpr std::size_t kMaxLines = 20;
-  const std::vector<std::string> lines = kinds_.Lines();
-  for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
+  for (const std::string& line : FirstLines(kinds_.Lines(), 20, "other kinds of doubts; see `etude rows`"))
     fmt::print(stderr, "{}\n", line);
-  if (lines.size() > kMaxLines)
-    fmt::print(stderr, "and {} other kinds of doubts; see `etude rows`\n", lines.size() - kMaxLines);
 }
 
 DoubtList DoubtsOf(const RunData& run) {
@@ -72,16 +67,14 @@ Result<PairNotes> ReadPairNotes(const std::filesystem::path& folder) {
 }
 
 void PrintPairNotes(const PairNotes& notes) {
-  const auto print = [](const std::vector<std::string>& lines) {
-    constexpr std::size_t kMaxLines = 10;
-    for (const std::string& line : std::span(lines).first(std::min(lines.size(), kMaxLines)))
+  const auto print = [](const NoteKinds& kinds) {
+    for (const std::string& line :
+         FirstLines(kinds.Lines(), 10, "other notes; `etude rows` prints all cells with their notes"))
       fmt::print("  {}\n", line);
-    if (lines.size() > kMaxLines)
-      fmt::print("  and {} other notes; `etude rows` prints all cells with their notes\n", lines.size() - kMaxLines);
   };
-  print(notes.judged.Lines());
+  print(notes.judged);
   if (!notes.every_not_judged.empty()) fmt::print("{} not judged:\n", notes.every_not_judged.size());
-  print(notes.not_judged.Lines());
+  print(notes.not_judged);
 }
 
 }  // namespace etude

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/interrupt.h"
+
 namespace etude {
 namespace {
 
@@ -82,6 +84,17 @@ FilmWatch WatchFilms(const Interrupt& interrupt, int jobs) {
     tell(done, frames);
   };
   return {.progress = tell, .stop = interrupt.requested(), .jobs = jobs};
+}
+
+Listener TerminalListener() {
+  Listener listener;
+  listener.print = [](const std::string& text) { fmt::print("{}", text); };
+  listener.progress = [](std::string what) { return ProgressOf(std::move(what)); };
+  listener.film = [](const std::function<Result<bool>(const FilmWatch& watch)>& write) {
+    const Interrupt interrupt;
+    return UnlessInterrupted(write(WatchFilms(interrupt)), interrupt);
+  };
+  return listener;
 }
 
 }  // namespace etude

@@ -7,6 +7,7 @@
 #include "engine/base/progress.h"
 #include "io/drawing/film.h"
 #include "io/process/clock.h"
+#include "tools/listener.h"
 
 namespace etude {
 
@@ -47,5 +48,9 @@ OnProgress ProgressOf(std::string what);
 /// Returns a watch that shows for each film the number of drawn frames and the estimated remaining time. Ctrl-C stops
 /// the film. `jobs` processes draw; 0 = one per processor.
 FilmWatch WatchFilms(const Interrupt& interrupt, int jobs = 0);
+
+/// Returns a listener that prints to standard output and shows progress on standard error. With this listener, Ctrl-C
+/// stops the writing of a film.
+Listener TerminalListener();
 
 }  // namespace etude

@@ -179,9 +179,7 @@ Result<void> Print(const LabelScores& scores, bool as_json) {
 }
 
 Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
-  ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
-  ASSIGN_OR_RETURN(auto loaded,
-                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
+  ASSIGN_OR_RETURN(auto loaded, options.reading.Load(options.streams));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   constexpr std::size_t kFew = 20;
   if (loaded.streams.size() <= kFew) {

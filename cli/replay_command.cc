@@ -13,7 +13,6 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 
 namespace etude {
@@ -70,14 +69,13 @@ void PrintBaseline(const std::string& file, const std::vector<BaselineValue>& va
 }
 
 Json FactsOf(const std::vector<CellCheck>& checks, const Snapshot* baseline) {
-  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json cells = Json::array();
   for (const CellCheck& check : checks) {
     Json& cell = cells.emplace_back(Json{{"cell", check.cell}, {"same", check.same}});
     if (!check.same) cell.update({{"stage", check.stage}, {"then", check.then}, {"now", check.now}});
     if (baseline == nullptr || !check.row) continue;
     for (const BaselineValue& value : ValuesOf(*baseline, *check.row)) {
-      cell["baseline"][value.metric] = {number(value.baseline), number(value.now)};
+      cell["baseline"][value.metric] = {OrNull(value.baseline), OrNull(value.now)};
     }
   }
   return {{"cells", std::move(cells)}};

@@ -11,10 +11,8 @@
 #include "bench/run/run.h"
 #include "bench/run/shipped.h"
 #include "cli/commands.h"
-#include "cli/dry_run.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/run_outcome.h"
 
@@ -79,19 +77,8 @@ int RunCommand(const RunOptions& options, bool as_json) {
   if (!finished) return Complain(finished.error());
   if (!*finished) return kInterrupted;
   const RunOutcome& outcome = **finished;
-  // A shard has no tables; the merge of all shards makes the tables.
-  if (!options.shard.IsWhole()) {
-    fmt::print(
-        "Shard {}: {} of {} cells ok in {:.1f} s; results: {}\nNext, when all shards are finished: etude merge DIR… -o "
-        "DIR\n",
-        ToString(options.shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
-    aside.End();
-    const int code = outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
-    return as_json ? PrintOutcome(outcome, options.shard, code) : code;
-  }
-  const int code = ShowOutcome(outcome);
-  aside.End();
-  return as_json && (code == kSuccess || code == kNothingWorked) ? PrintOutcome(outcome, {}, code) : code;
+  StdoutToStderr* const facts = as_json ? &aside : nullptr;
+  return options.shard.IsWhole() ? ShowOutcome(outcome, facts) : ShowShard(outcome, options.shard, facts);
 }
 
 int MergeCommand(const MergeOptions& given) {

@@ -49,11 +49,6 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
   return row == rows.end() ? "" : row->result.reason;
 }
 
-/// Returns the number of characters of a UTF-8 text.
-std::size_t CountCharacters(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string_view ArrowOf(Direction direction) {
   return direction == Direction::kNeither ? "" : direction == Direction::kLowerIsBetter ? " ↓" : " ↑";
 }
@@ -191,27 +186,40 @@ bool HasSilentMethod(const RunData& run) {
   });
 }
 
-/// Returns the doubts about judged files, which the rows of a run hold.
-Result<DoubtList> DoubtsIn(const std::filesystem::path& folder, const RunData& run) {
-  const bool judges_files = std::ranges::any_of(run.scenarios, [](const ScenarioSummary& one) {
-    return FindTaskKind(one.task) != nullptr && FindTaskKind(one.task)->find_files;
-  });
-  if (!judges_files) return DoubtList{};
-  ASSIGN_OR_RETURN(const auto rows, LoadRunRowByRow(folder));
-  return DoubtsOf(rows);
-}
+/// What a finished run tells besides its cells.
+struct Finished {
+  RunData run;                         ///< the summaries; also the rows if they hold needed reasons
+  DoubtList doubts;                    ///< the doubts about judged files
+  std::vector<FailureCount> failures;  ///< the cells without an answer, counted by reason
+};
 
-/// Returns the cells without an answer of a run, counted by reason.
-Result<std::vector<FailureCount>> FailuresIn(const std::filesystem::path& folder, const RunData& outline) {
-  const auto has_failure = [](const MethodSummary& method) { return method.ok < method.attempted; };
-  const bool has_failures = std::ranges::any_of(outline.scenarios, [&](const ScenarioSummary& scenario) {
-    return std::ranges::any_of(scenario.conditions, [&](const ConditionSummary& condition) {
-      return std::ranges::any_of(condition.methods, has_failure);
+Result<Finished> ReadFinished(const std::filesystem::path& folder) {
+  Finished finished;
+  ASSIGN_OR_RETURN(finished.run, LoadRunOutline(folder));
+  const std::vector<ScenarioSummary>& scenarios = finished.run.scenarios;
+  const auto has_skipped = [](const ScenarioSummary& scenario) {
+    return std::ranges::any_of(scenario.conditions, IsSkipped);
+  };
+  if (std::ranges::any_of(scenarios, has_skipped) || std::ranges::any_of(scenarios, MayHaveSilentMethod)) {
+    ASSIGN_OR_RETURN(finished.run, LoadRun(folder));
+  }
+  // Read all rows only if they may hold a doubt or a failure.
+  const auto judges_files = [](const ScenarioSummary& scenario) {
+    return FindTaskKind(scenario.task) != nullptr && FindTaskKind(scenario.task)->find_files;
+  };
+  const auto has_failures = [](const ScenarioSummary& scenario) {
+    return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& condition) {
+      return std::ranges::any_of(condition.methods,
+                                 [](const MethodSummary& method) { return method.ok < method.attempted; });
     });
-  });
-  if (!has_failures) return std::vector<FailureCount>{};
+  };
+  const bool may_doubt = std::ranges::any_of(scenarios, judges_files);
+  const bool may_fail = std::ranges::any_of(scenarios, has_failures);
+  if (!may_doubt && !may_fail) return finished;
   ASSIGN_OR_RETURN(const auto rows, LoadRunRowByRow(folder));
-  return FailuresOf(rows);
+  if (may_doubt) finished.doubts = DoubtsOf(rows);
+  if (may_fail) finished.failures = FailuresOf(rows);
+  return finished;
 }
 
 /// Prints at most twenty failures of methods that answered in other cells.
@@ -222,19 +230,13 @@ void PrintFailures(const std::vector<FailureCount>& failures) {
   for (const FailureCount& one : failures) {
     if (cells.at({one.scenario, one.method}) < one.of) lines.push_back(DescribeFailure(one));
   }
-  constexpr std::size_t kShown = 20;
-  if (const std::size_t count = lines.size(); count > kShown) {
-    lines.resize(kShown);
-    lines.push_back(fmt::format("and {} more; `etude rows` prints all cells", count - kShown));
-  }
-  PrintList("\nCells without an answer:", lines);
+  PrintList("\nCells without an answer:", FirstLines(std::move(lines), 20, "more; `etude rows` prints all cells"));
 }
 
-/// Returns the facts that `etude run --json` prints; `run` is null for a shard.
-Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, const DoubtList& doubts,
-             const std::vector<FailureCount>& failures) {
+/// Returns the facts that `etude run --json` prints. A shard has no summaries, so it has only the numbers of `outcome`.
+Json FactsOf(const RunOutcome& outcome, const Shard& shard, const Finished& finished) {
   Json scenarios = Json::array(), silent = Json::array(), failed = Json::array();
-  for (const FailureCount& one : failures) {
+  for (const FailureCount& one : finished.failures) {
     failed.push_back({{"scenario", one.scenario},
                       {"method", one.method},
                       {"status", StatusName(one.status)},
@@ -242,7 +244,7 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, 
                       {"cells", one.cells},
                       {"of", one.of}});
   }
-  for (const ScenarioSummary& scenario : run == nullptr ? std::span<const ScenarioSummary>() : run->scenarios) {
+  for (const ScenarioSummary& scenario : finished.run.scenarios) {
     Json expectations = Json::array();
     for (const ExpectationResult& one : scenario.expectations) {
       expectations.push_back(
@@ -251,7 +253,8 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, 
     scenarios.push_back(
         {{"scenario", scenario.name}, {"task", scenario.task}, {"expectations", std::move(expectations)}});
     if (!MayHaveSilentMethod(scenario)) continue;
-    for (const std::string& method : SilentMethods(*run, scenario)) silent.push_back(scenario.name + "/" + method);
+    for (const std::string& method : SilentMethods(finished.run, scenario))
+      silent.push_back(scenario.name + "/" + method);
   }
   return {{"output", outcome.folder.string()},
           {"shard", shard.IsWhole() ? Json(nullptr) : Json(ToString(shard))},
@@ -262,7 +265,29 @@ Json FactsOf(const RunOutcome& outcome, const Shard& shard, const RunData* run, 
           {"without_answer", std::move(silent)},
           {"failures", std::move(failed)},
           {"left_out", LeftOutIn(outcome)},
-          {"doubts", doubts.lines()}};
+          {"doubts", finished.doubts.lines()}};
+}
+
+Result<int> Show(const RunOutcome& outcome, StdoutToStderr* aside) {
+  ASSIGN_OR_RETURN(const Finished finished, ReadFinished(outcome.folder));
+  const RunData& run = finished.run;
+  PrintSummary(run);
+  finished.doubts.Tell();
+  const std::string folder = outcome.folder.string();
+  const bool has_silent = HasSilentMethod(run);
+  if (has_silent) {
+    ASSIGN_OR_RETURN(const auto whole, LoadFinishedRun(folder));
+    PrintList("\nMethods without an answer:", DescribeSilent(whole));
+  }
+  PrintFailures(finished.failures);
+  PrintAnswers(run);
+  fmt::print("\n{} of {} cells ok{} in {:.1f} s; results: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
+             OthersInWords(run), outcome.seconds, folder, folder);
+  if (aside != nullptr) {
+    aside->End();
+    RETURN_IF_ERROR(PrintFacts("run", FactsOf(outcome, {}, finished)));
+  }
+  return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
 }
 
 }  // namespace
@@ -273,51 +298,18 @@ std::vector<std::string> LeftOutIn(const RunOutcome& outcome) {
   return lines;
 }
 
-int ShowOutcome(const RunOutcome& outcome) {
-  auto run = LoadRunOutline(outcome.folder);
-  const auto has_skipped = [](const ScenarioSummary& scenario) {
-    return std::ranges::any_of(scenario.conditions, IsSkipped);
-  };
-  if (run &&
-      (std::ranges::any_of(run->scenarios, has_skipped) || std::ranges::any_of(run->scenarios, MayHaveSilentMethod)))
-    run = LoadRun(outcome.folder);  // rows hold the reasons
-  if (!run) return Complain(run.error());
-  PrintSummary(*run);
-  const auto doubts = DoubtsIn(outcome.folder, *run);
-  if (!doubts) return Complain(doubts.error());
-  doubts->Tell();
-  const std::string folder = outcome.folder.string();
-  const bool has_silent = HasSilentMethod(*run);
-  if (has_silent) {
-    const auto finished = LoadFinishedRun(outcome.folder);
-    if (!finished) return Complain(finished.error());
-    PrintList("\nMethods without an answer:", DescribeSilent(*finished));
-  }
-  const auto failures = FailuresIn(outcome.folder, *run);
-  if (!failures) return Complain(failures.error());
-  PrintFailures(*failures);
-  PrintAnswers(*run);
-  fmt::print("\n{} of {} cells ok{} in {:.1f} s; results: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
-             OthersInWords(*run), outcome.seconds, folder, folder);
-  return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
-}
+int ShowOutcome(const RunOutcome& outcome, StdoutToStderr* aside) { return Finish(Show(outcome, aside)); }
 
-int PrintOutcome(const RunOutcome& outcome, const Shard& shard, int code) {
-  std::optional<RunData> run;
-  Result<DoubtList> doubts;
-  Result<std::vector<FailureCount>> failures;
-  if (shard.IsWhole()) {
-    auto outline = LoadRunOutline(outcome.folder);
-    if (outline && std::ranges::any_of(outline->scenarios, MayHaveSilentMethod)) outline = LoadRun(outcome.folder);
-    if (!outline) return Complain(outline.error());
-    run = *std::move(outline);
-    doubts = DoubtsIn(outcome.folder, *run);
-    if (!doubts) return Complain(doubts.error());
-    failures = FailuresIn(outcome.folder, *run);
-    if (!failures) return Complain(failures.error());
+int ShowShard(const RunOutcome& outcome, const Shard& shard, StdoutToStderr* aside) {
+  fmt::print(
+      "Shard {}: {} of {} cells ok in {:.1f} s; results: {}\nNext, when all shards are finished: etude merge DIR… -o "
+      "DIR\n",
+      ToString(shard), outcome.cells_ok, outcome.cells, outcome.seconds, outcome.folder.string());
+  if (aside != nullptr) {
+    aside->End();
+    if (const auto printed = PrintFacts("run", FactsOf(outcome, shard, {})); !printed) return Complain(printed.error());
   }
-  const auto printed = PrintFacts("run", FactsOf(outcome, shard, run ? &*run : nullptr, *doubts, *failures));
-  return printed ? code : Complain(printed.error());
+  return outcome.cells_ok > 0 || outcome.cells == 0 ? kSuccess : kNothingWorked;
 }
 
 }  // namespace etude

@@ -11,7 +11,6 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
-#include "cli/output_file.h"
 #include "engine/base/names.h"
 #include "engine/streams/stream_maker.h"
 #include "io/files/files.h"
@@ -154,7 +153,7 @@ Json FactsOf(const Columns& columns) {
   for (const auto& [name, statistics] : columns) {
     Json rows = Json::array();
     for (const StatisticRow& row : RowsOf(statistics)) {
-      rows.push_back({{"statistic", row.name}, {"unit", row.unit}, {"value", row.value ? Json(*row.value) : Json()}});
+      rows.push_back({{"statistic", row.name}, {"unit", row.unit}, {"value", OrNull(row.value)}});
     }
     all.push_back({{"column", name}, {"statistics", std::move(rows)}});
   }

@@ -49,10 +49,11 @@ StreamReading StreamArguments::Reading() const {
   return reading;
 }
 
-Result<OpenOptions> StreamArguments::ClipOptions() const {
-  ClipReading all = clips;
-  all.rate_hz = rate_hz;
-  return ReadOptions(all);
+Result<LoadedStreams> StreamArguments::Load(const std::vector<std::string>& files) const {
+  ClipReading of_clips = clips;
+  of_clips.rate_hz = rate_hz;
+  ASSIGN_OR_RETURN(const auto opening, ReadOptions(of_clips));
+  return LoadStreams(files, Reading(), Options(), opening);
 }
 
 StreamOptions StreamArguments::Options() const {

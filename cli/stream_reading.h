@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/clip_reading.h"
 #include "io/streams/load.h"
@@ -24,7 +25,8 @@ struct StreamArguments {
 
   StreamReading Reading() const;
   StreamOptions Options() const;
-  Result<OpenOptions> ClipOptions() const;
+  /// Loads recordings and clips (LoadStreams).
+  Result<LoadedStreams> Load(const std::vector<std::string>& files) const;
 };
 
 /// Loads the labels and finds the labelled performances in the recordings (MatchLabels). Prints on standard error

@@ -9,7 +9,6 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
-#include "cli/output_file.h"
 #include "cli/stream_reading.h"
 #include "engine/base/names.h"
 #include "engine/teaching/moves_file.h"
@@ -38,9 +37,7 @@ constexpr const char* kTeachText =
     "docs/streams.md explains these formats.";
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
-  ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
-  ASSIGN_OR_RETURN(auto loaded,
-                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
+  ASSIGN_OR_RETURN(auto loaded, options.reading.Load(options.streams));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   for (const NamedStream& stream : loaded.streams)
     fmt::print(stderr, "{}\n", ToString(Error{{stream.source}, stream.description}));

@@ -19,7 +19,6 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
-#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
@@ -191,7 +190,7 @@ Json ScoresOf(const Split& split, const FuzzySystem& tuned) {
       scores.push_back({{"system", name},
                         {"clips", clips},
                         {"f1", score.at_threshold.F1()},
-                        {"auc", score.auc ? Json(*score.auc) : Json()},
+                        {"auc", OrNull(score.auc)},
                         {"matched", score.at_threshold.matched},
                         {"close", score.at_threshold.close},
                         {"close_matched", score.at_threshold.close_matched}});

@@ -175,7 +175,7 @@ TEST(Scenario, SurvivesEveryTruncationAndManyMutations) {
   EXPECT_GT(refused, 700);
 }
 
-// Each complaint gives file, line and column, the value found, and the allowed values.
+// Each error message gives file, line and column, the value found, and the allowed values.
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_TRUE(testing::AnswersAreKept("tests/bench/scenario/complaints.txt", [](std::string text) {
     // " | NAME: TEXT" adds a further file. A text that includes other files is otherwise a complete scenario.
