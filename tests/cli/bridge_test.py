@@ -23,14 +23,12 @@ class Bridge(EtudeCase):
         self.tags = self.folder / "tags.xml"
 
     def works(self, *arguments):
-        result = self.etude("bridge", *arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "bridge", *arguments)
         self.assertEqual(result.stderr, "")
         return result.stdout
 
     def refuses(self, *arguments, says):
-        result = self.etude("bridge", *arguments)
-        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        result = self.ends(2, "bridge", *arguments)
         lines = result.stderr.strip().splitlines()
         self.assertEqual(len(lines), 1, result.stderr)
         for words in says:

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import unittest
 
+from camera_axes import axes_of, dot
 from etude_case import EtudeCase, heavy
 
 WIDTH, HEIGHT, FRAMES, RATE = 320, 240, 20, 30
@@ -17,28 +18,10 @@ FOCAL = 260.0
 PLACES = {"left": (-2.5, 1.6, 3.0), "middle": (0.3, 2.2, 3.9), "right": (3.0, 1.2, 2.4)}
 
 
-def sub(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def unit(a):
-    return tuple(x / math.sqrt(dot(a, a)) for x in a)
-
-
 def project(camera, point):
     """Returns OpenCV's pixels of a camera that looks at (0, 1, 0)."""
-    z = unit(sub((0, 1, 0), PLACES[camera]))
-    x = unit(cross(z, (0, 1, 0)))
-    y = cross(z, x)
-    p = sub(point, PLACES[camera])
+    x, y, z = axes_of(PLACES[camera])
+    p = [a - b for a, b in zip(point, PLACES[camera])]
     return (FOCAL * dot(x, p) / dot(z, p) + WIDTH / 2 - 0.5, FOCAL * dot(y, p) / dot(z, p) + HEIGHT / 2 - 0.5)
 
 

@@ -72,8 +72,7 @@ class DataSets(EtudeCase):
         self.assertEqual([row["status"] for row in rows if row["method"] not in ("a",)], ["ok"])
         scored = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]["loaded_clips"][0]["frames"]
         self.assertEqual(scored, frames)
-        again = self.etude("score", data, self.folder / "answers", "--rate", 30, "-o", self.folder / "no")
-        self.assertEqual(again.returncode, 2)
+        again = self.ends(2, "score", data, self.folder / "answers", "--rate", 30, "-o", self.folder / "no")
         self.assertIn("--rate", again.stderr)
 
     def exported(self, name="ik"):
@@ -116,14 +115,12 @@ class DataSets(EtudeCase):
         self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
         self.assertEqual(self.etude("gate", self.out, "--baseline", baseline).returncode, 0)
         self.assertEqual(self.etude("compare", self.out, self.out).returncode, 0)
-        replayed = self.etude("replay", self.out)
-        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        replayed = self.ends(0, "replay", self.out)
         self.assertIn(f"{len(rows) - 8} of {len(rows) - 8} cells are identical to the run", replayed.stdout)
         for arguments in (["run", "--from", self.out / "manifest.json"],
                           ["run", "--from", self.out / "manifest.json", "--dry-run"],
                           ["replay", self.out, "--cell", "ik/joint_noise_deg=2/000/oracle"]):
-            refused = self.etude(*arguments)
-            self.assertEqual(refused.returncode, 2)
+            refused = self.ends(2, *arguments)
             self.assertIn("scored", refused.stderr)
 
     def test_worse_answers_score_worse(self):
@@ -196,11 +193,9 @@ class DataSets(EtudeCase):
         self.assertGreater(len(files), 16)
         for file in files:
             self.assertEqual((data / file).read_bytes(), (again / file).read_bytes(), file)
-        refused = self.etude("export", self.shared / "ik/ik.yaml", "-o", data)
-        self.assertEqual(refused.returncode, 2)
+        refused = self.ends(2, "export", self.shared / "ik/ik.yaml", "-o", data)
         self.assertIn("is not empty", refused.stderr)
-        nothing = self.etude("export", self.write("bad.yaml", IK.replace("ccd", "cdc")), "-o", self.folder / "bad")
-        self.assertEqual(nothing.returncode, 2)
+        self.ends(2, "export", self.write("bad.yaml", IK.replace("ccd", "cdc")), "-o", self.folder / "bad")
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith("bad")], ["bad.yaml"])
 
     def test_the_inputs_tell_neither_seed_nor_truth(self):
@@ -217,8 +212,7 @@ class DataSets(EtudeCase):
         marks.mkdir()
         for camera in (1, 2):
             shutil.copy(take / f"marks-hue-camera-{camera}.coco.json", marks / f"camera-{camera}.coco.json")
-        result = self.etude("calibrate", take / "calibration-points.yaml", "--method", "dlt", "-o", rig)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "calibrate", take / "calibration-points.yaml", "--method", "dlt", "-o", rig)
         result = self.etude("capture", "--rig", rig, take / "camera-1.mkv", take / "camera-2.mkv", "--keypoints", marks,
                             "-o", self.folder / "motion.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -264,8 +258,7 @@ class DataSets(EtudeCase):
         self.assertTrue((truth / "camera-2.yaml").read_text().startswith("%YAML:1.0\n---\n"))
         self.assertEqual((truth / "camera-1-0002.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
         # The truth's BVH file can be used as a clip.
-        clip = self.etude("run", self.folder / "film.yaml", "--clips", truth / "truth.bvh", "-o", self.folder / "again")
-        self.assertEqual(clip.returncode, 0, clip.stderr)
+        self.ends(0, "run", self.folder / "film.yaml", "--clips", truth / "truth.bvh", "-o", self.folder / "again")
         mine = [row for row in self.score(data, answers) if row["method"] == "predictions"]
         self.assertEqual([row["mpjpe_mm"] for row in mine], [0])
         self.assertIsNone(mine[0]["iou"])

@@ -175,11 +175,9 @@ class Evaluate(EtudeCase):
         # A baseline of two files passes a run of four, and fails if one of the two is missing.
         baseline = self.folder / "two.json"
         self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
-        gated = self.etude("gate", more, "--baseline", baseline)
-        self.assertEqual(gated.returncode, 0, gated.stdout + gated.stderr)
+        self.ends(0, "gate", more, "--baseline", baseline)
         self.etude("gate", more, "--baseline", self.folder / "four.json", "--update")
-        fewer = self.etude("gate", self.out, "--baseline", self.folder / "four.json")
-        self.assertEqual(fewer.returncode, 3, fewer.stdout)
+        fewer = self.ends(3, "gate", self.out, "--baseline", self.folder / "four.json")
         self.assertIn("evaluate, a", fewer.stdout + fewer.stderr)
         # Both runs are intact; after a file changes, replay and verify name it.
         self.assertEqual(self.etude("verify", self.out).returncode, 0)
@@ -296,8 +294,7 @@ class Evaluate(EtudeCase):
         self.assertEqual(self.etude("replay", self.out).returncode, 0, "the manifest holds the texts")
 
     def test_angles_agree_between_files_of_one_skeleton(self):
-        made = self.etude("clip", "convert", "builtin:groove", self.folder / "groove.bvh")
-        self.assertEqual(made.returncode, 0, made.stderr)
+        self.ends(0, "clip", "convert", "builtin:groove", self.folder / "groove.bvh")
         facts = self.facts("evaluate", self.folder / "groove.bvh", self.folder / "groove.bvh", "-o", self.out)
         self.assertGreater(len(facts["angles"]), 20)
         self.assertLess(max(angle["rmse_deg"]["value"] for angle in facts["angles"]), 1e-6)
@@ -554,8 +551,7 @@ class Evaluate(EtudeCase):
                 (["check-method", "--task", "evaluation", "--", "python3", self.write("x.py", "")],
                  "task evaluation runs no programs\n")]:
             with self.subTest(words=words, command=arguments[0]):
-                told = self.etude(*arguments)
-                self.assertEqual(told.returncode, 2, told.stdout + told.stderr)
+                told = self.ends(2, *arguments)
                 self.assertIn(words, told.stderr)
                 self.assertEqual(told.stderr.count("\n"), 1, told.stderr)
 

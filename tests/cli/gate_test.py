@@ -110,8 +110,7 @@ class Gate(EtudeCase):
         self.assertIn(commands[0][1], (self.out / "report" / "gate.xml").read_text())
         folder, cell = commands[0]
         self.assertIn(f"--cell {cell} --baseline {self.baseline}", text)
-        replayed = self.etude("replay", folder, "--cell", cell, "--baseline", self.baseline, "--unsealed")
-        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        replayed = self.ends(0, "replay", folder, "--cell", cell, "--baseline", self.baseline, "--unsealed")
         self.assertIn(f"  {line['metric']}: {line['values'][0]} in the baseline, {whole[0]} now\n", replayed.stdout)
         self.assertIn(" in the baseline, and now\n", replayed.stdout)
         # JSON names the same worlds.
@@ -336,11 +335,9 @@ class Gate(EtudeCase):
     def test_comparing_two_runs_lists_what_only_one_holds(self):
         self.make_baseline()
         self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
-        same = self.etude("compare", self.out, self.out)
-        self.assertEqual(same.returncode, 0, same.stderr)
+        same = self.ends(0, "compare", self.out, self.out)
         self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\nAll verdicts are about these worlds only, and not about other worlds.\n$")
-        result = self.etude("compare", self.out, self.now)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.ends(0, "compare", self.out, self.now)
         self.assertIn("Only in A:\n  ik, joint_noise_deg=5, fixed\n  ik, joint_noise_deg=5, least-squares", result.stdout)
         self.assertIn("Only in B:\n  ik, joint_noise_deg=7, fixed\n", result.stdout)
         self.assertEqual(self.etude("compare", self.out, self.folder / "none").returncode, 2)
@@ -348,8 +345,7 @@ class Gate(EtudeCase):
     @heavy
     def test_the_gate_measures_itself(self):
         repetitions = 200
-        result = self.etude("gate", "--self-test", "--repetitions", repetitions)
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        result = self.ends(0, "gate", "--self-test", "--repetitions", repetitions)
         print(result.stdout)
 
         def share(line):
