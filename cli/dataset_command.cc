@@ -85,7 +85,7 @@ void DefineExport(CLI::App& app, Action& action) {
                     "For capture scenarios: also write depth, labels and normals of every picture (EXR)");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
-    std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
+    std::ranges::for_each(DescribeAmbiguousPaths(options->scenarios), Complain);
     return ExportCommand(*options);
   });
   AddReuseKey(*command, options->reuse_key);

@@ -218,7 +218,7 @@ int main(int argc, char** argv) {
   etude::OpenStandardStreams();
   // The parent may have set SIGCHLD to be ignored, which would lose the exit status of this process's children.
   std::signal(SIGCHLD, SIG_DFL);
-  etude::EndWhenMappedFilesAreCut();
+  etude::ExitOnTruncatedMapping();
   etude::PrepareHeap();
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a file-size limit then fails with an error that is reported
   if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());

@@ -178,7 +178,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         if (!part) return Complain({{}, "--shard: " + part.error().message});
         options->shard = *part;
       }
-      std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
+      std::ranges::for_each(DescribeAmbiguousPaths(options->scenarios), Complain);
       return act();
     };
   });

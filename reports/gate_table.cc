@@ -189,8 +189,8 @@ std::vector<std::string> GateSentences(const GateReport& report) {
 
 std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped) {
   std::vector<std::string> lines;
-  for (const FallenAnswer& one : report.fallen) {
-    if (one.Flips() || !only_flipped) lines.push_back(DescribeFallen(one));
+  for (const WorsenedAnswer& one : report.fallen) {
+    if (one.IsReversed() || !only_flipped) lines.push_back(DescribeFallen(one));
   }
   return lines;
 }

@@ -197,7 +197,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   ASSIGN_OR_RETURN(auto suite, ReadTarget(options));
   RETURN_IF_ERROR(RefuseFiles(suite));
   suite.scored = ScoredMethod{options.name, options.alone};
-  ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
+  ASSIGN_OR_RETURN(const auto state, InspectFolder(options.output));
   if (state != FolderState::kFree) {
     return Fail({options.output, 0, 0}, "already contains a run; choose another folder with -o");
   }

@@ -34,7 +34,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed);
 
 /// The part of a run that is held in memory.
-enum class Held {
+enum class LoadedPart {
   kAll,      ///< everything that LoadRun loads
   kOutline,  ///< what LoadRunRowByRow loads
 };
@@ -43,6 +43,6 @@ enum class Held {
 /// the reason (`incomplete`). Fails as LoadRun and CheckRows do. Fails also if this program has another version of a
 /// metric than the manifest, or if a rule on processor times needs times that the run does not have.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired,
-                                    Held held = Held::kAll);
+                                    LoadedPart held = LoadedPart::kAll);
 
 }  // namespace etude

@@ -232,7 +232,7 @@ bool IsRegression(const MetricMove& move) {
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kIncomplete;
   const auto unmet = [](const auto& judged) { return judged.outcome == ClaimOutcome::kUnmet; };
-  const bool fails = !report.silent.empty() || std::ranges::any_of(report.fallen, &FallenAnswer::Flips) ||
+  const bool fails = !report.silent.empty() || std::ranges::any_of(report.fallen, &WorsenedAnswer::IsReversed) ||
                      std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
                      std::any_of(report.expectations.begin(), report.expectations.end(),

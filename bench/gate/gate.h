@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/gate/comparison.h"
-#include "bench/gate/fallen_answers.h"
 #include "bench/gate/finished_run.h"
+#include "bench/gate/worsened_answers.h"
 #include "bench/model/judged_time.h"
 
 namespace etude {
@@ -59,8 +59,8 @@ struct GateReport {
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   /// Answers whose verdict became worse. Only a change from "better" to "worse" makes the gate fail
-  /// (FallenAnswer::Flips).
-  std::vector<FallenAnswer> fallen;
+  /// (WorsenedAnswer::IsReversed).
+  std::vector<WorsenedAnswer> fallen;
   /// One sentence for each method without any answer; each such method makes the gate fail.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict

@@ -55,7 +55,7 @@ std::optional<double> MoveNamed(std::span<const NamedMove> performances) {
   return Share(static_cast<int>(named), static_cast<int>(performances.size()));
 }
 
-Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz) {
+Wait AcceptanceLatency(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz) {
   return {called_frame.value_or(window_end_frame) / rate_hz - first_right_s, called_frame.has_value()};
 }
 

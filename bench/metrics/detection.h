@@ -31,7 +31,7 @@ std::optional<double> MoveNamed(std::span<const NamedMove> performances);
 /// is the time at which the performance had passed all requested key poses, in seconds from the session's start.
 /// Without a `called_frame`, the wait is censored when the window closes. The wait is negative if the call came before
 /// the completion.
-Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz);
+Wait AcceptanceLatency(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz);
 
 /// The frames [begin, end) in which a performance is judged.
 struct MoveWindow {

@@ -188,7 +188,7 @@ Outcome<void> OutsideMethod::State::Start() {
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
   if (ended) {  // the program has ended; the sandbox may be the cause
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
-    const std::string cure = program.CureOfStart();
+    const std::string cure = program.AdviceOnStartFailure();
     reply.error().reason += cure.empty() ? kHint : cure;
   }
   // If a program never replied to any handshake, the set-up of this machine counts as the cause: the program has not

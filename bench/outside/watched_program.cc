@@ -176,7 +176,7 @@ std::string WatchedProgram::Stop(int patience_ms) {
   return end;
 }
 
-std::string WatchedProgram::CureOfStart() const {
+std::string WatchedProgram::AdviceOnStartFailure() const {
   if (!options_.fence.IsUp()) return "";
   const auto unseen = FindUnseen(view_, errors_.LastLine());
   if (unseen.empty()) return "";

@@ -104,7 +104,7 @@ class WatchedProgram {
   void ForgetPeak() { peak_mb_ = 0; }
   /// Returns advice on how to show the program the files that it seems to lack in its sandbox; "" if it seems to lack
   /// none or has no sandbox.
-  std::string CureOfStart() const;
+  std::string AdviceOnStartFailure() const;
   /// Saves the program's standard error.
   void SaveErrors() { errors_.Save(); }
 

@@ -42,7 +42,7 @@ Result<Json> SummaryOf(const FinishedRun& run, int jobs) {
   std::vector<ScenarioSummary> summaries;
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const FinishedScenario& scenario = run.scenarios[i];
-    ASSIGN_OR_RETURN(auto summary, SumUp(scenario.study, tables[i], scenario.seed, jobs));
+    ASSIGN_OR_RETURN(auto summary, SummariseInParallel(scenario.study, tables[i], scenario.seed, jobs));
     summaries.push_back(std::move(summary));
   }
   return EncodeSummaries(summaries);
@@ -300,7 +300,7 @@ Verified VerifyCells(const ReplayOutcome& replayed) {
 
 Result<VerifyOutcome> VerifyFolder(const ReplayOptions& options, bool replays) {
   const FilePath folder = Inside(options.folder);
-  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored, Held::kOutline));
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.folder, Sealing::kIgnored, LoadedPart::kOutline));
   // Check the rows first, because all other checks rely on them.
   VerifyOutcome outcome;
   std::vector<Verified>& all = outcome.checks;

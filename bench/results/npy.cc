@@ -24,7 +24,7 @@ void EndAfterCutFile(int) {
 
 }  // namespace
 
-void EndWhenMappedFilesAreCut() { std::signal(SIGBUS, EndAfterCutFile); }
+void ExitOnTruncatedMapping() { std::signal(SIGBUS, EndAfterCutFile); }
 
 Result<NpyWriter> NpyWriter::Begin(const FilePath& path, std::string_view type) {
   ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));

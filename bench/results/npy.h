@@ -51,10 +51,10 @@ class NpyWriter {
 
 /// Installs a handler of SIGBUS for the process. If another program truncates a mapped file, reading the missing part
 /// then ends the process with a sentence on standard error and exit code 3, instead of a crash.
-void EndWhenMappedFilesAreCut();
+void ExitOnTruncatedMapping();
 
 /// An .npy file mapped into memory: the system reads only the parts that are used. If another program may truncate the
-/// file, call `EndWhenMappedFilesAreCut` first.
+/// file, call `ExitOnTruncatedMapping` first.
 class NpyFile {
  public:
   /// Opens a file that NpyWriter wrote with numbers of this type. Fails, naming the path, on any other file.

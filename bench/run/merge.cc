@@ -84,7 +84,7 @@ Result<void> RequireNoFolderOfShards(const fs::path& folder) {
     if (Exists(Inside(entry->path()) / kJournalFile)) shards.push_back(entry->path().string());
   }
   // If nothing in a folder is foreign to a run, the run was stopped before it began its journal.
-  if (shards.empty() && (!fs::is_directory(folder, error) || LookAtFolder(folder))) return {};
+  if (shards.empty() && (!fs::is_directory(folder, error) || InspectFolder(folder))) return {};
   if (shards.empty()) return Fail({folder.string()}, "is no shard; allowed: the result folders of `etude run --shard`");
   std::ranges::sort(shards);
   return Fail({folder.string()}, "is no shard, but contains shards; allowed: these shards, {}", Join(shards, " "));
@@ -97,7 +97,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_li
   Shards shards;
   for (const std::string& folder : folders) {
     RETURN_IF_ERROR(RequireNoFolderOfShards(folder));
-    ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
+    ASSIGN_OR_RETURN(const auto state, InspectFolder(folder));
     if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run, not a shard");
     if (state == FolderState::kFree) {
       shards.missing.push_back(folder + " contains no shard");
@@ -168,7 +168,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
                 shards.count, shards.count, Join(shards.missing, "; "));
   }
   // Write the whole run.
-  ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
+  ASSIGN_OR_RETURN(const auto state, InspectFolder(options.output));
   if (state != FolderState::kFree && !options.overwrite) {
     return Fail({options.output, 0, 0},
                 "already contains a run; --overwrite replaces this run, -o chooses another folder");

@@ -35,7 +35,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
 
 /// Examines a result folder. Fails if the options do not allow writing into it, for example because it contains a run.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
-  auto state = LookAtFolder(folder);
+  auto state = InspectFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
   if (const auto head = ReadJournalHead(folder);
       head && !head->shard.IsWhole() && Exists(Inside(folder) / "host.json")) {

@@ -73,7 +73,7 @@ Result<bool> HoldsWholeLine(const FilePath& journal) {
 
 }  // namespace
 
-Result<FolderState> LookAtFolder(const fs::path& path) {
+Result<FolderState> InspectFolder(const fs::path& path) {
   const Place place{path.string(), 0, 0};
   std::error_code error;
   if (!fs::exists(path, error)) return FolderState::kFree;
@@ -98,7 +98,7 @@ Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
   RunFolder folder(path, made);
   RETURN_IF_ERROR(folder.Lock());
   if (keep_contents) return folder;
-  ASSIGN_OR_RETURN(const bool has_old, folder.TakeUp());
+  ASSIGN_OR_RETURN(const bool has_old, folder.RestoreReplacedRun());
   if (has_old || !HoldsMoreThanLock(path)) return folder;
   if (!folder.Replace()) RETURN_IF_ERROR(folder.Empty());
   return folder;
@@ -111,11 +111,11 @@ std::vector<TemporaryFolder> RunFolder::FindLeft() const {
   return TemporaryFolder::FindKept(path.parent_path(), path.filename().string());
 }
 
-Result<bool> RunFolder::TakeUp() {
+Result<bool> RunFolder::RestoreReplacedRun() {
   // `left` holds folders of runs that were killed. Their destructors delete those that are not moved out of `left`.
   std::vector<TemporaryFolder> left = FindLeft();
   if (left.empty()) return false;
-  ASSIGN_OR_RETURN(const auto state, LookAtFolder(path_));
+  ASSIGN_OR_RETURN(const auto state, InspectFolder(path_));
   if (state == FolderState::kFinished) return false;
   for (TemporaryFolder& one : left) {
     std::error_code error;
@@ -177,7 +177,7 @@ void RunFolder::Keep() {
   is_ours_ = false;
   std::error_code ignored;
   // Rename the old run before it is deleted. If the process is killed during the deletion, the remaining files must not
-  // count as a run that can be restored (TakeUp).
+  // count as a run that can be restored (RestoreReplacedRun).
   if (aside_) fs::rename(aside_->path() / kOldRun, aside_->path() / kGone, ignored);
   aside_.reset();
   // Delete the temporary folders that killed runs with `--overwrite` left; the destructors of the result delete them.
@@ -268,9 +268,10 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
       table.Add(finished.row);
       RETURN_IF_ERROR(results.Add(finished.row, finished.usage));
     }
-    ASSIGN_OR_RETURN(auto summary,
-                     SumUp(study, table, plan.scenarios()[s].setup().seed.Public(), jobs,
-                           [&](std::size_t done, std::size_t all) { told(cell, first + rows * done / all); }));
+    ASSIGN_OR_RETURN(auto summary, SummariseInParallel(study, table, plan.scenarios()[s].setup().seed.Public(), jobs,
+                                                       [&](std::size_t done, std::size_t all) {
+                                                         told(cell, first + rows * done / all);
+                                                       }));
     summaries.push_back(std::move(summary));
   }
   told(cell, cell);

@@ -23,7 +23,7 @@ enum class FolderState {
 
 /// Examines the contents of a folder. Fails if the folder contains anything that is not part of a run, because a run
 /// must never write into such a folder.
-Result<FolderState> LookAtFolder(const std::filesystem::path& path);
+Result<FolderState> InspectFolder(const std::filesystem::path& path);
 
 /// A result folder into which only this run writes. If the run ends before its first cell, the destructor removes the
 /// folder that this run made, and restores the run that was to be replaced.
@@ -52,7 +52,7 @@ class RunFolder {
   Result<void> Empty();
   /// Finds the old run that a killed run with `--overwrite` moved aside; the destructor then restores the old run,
   /// unless Keep is called. Returns false if there is no old run, or if this folder contains a finished run.
-  Result<bool> TakeUp();
+  Result<bool> RestoreReplacedRun();
   /// Returns the temporary folders that killed runs with `--overwrite` left.
   std::vector<TemporaryFolder> FindLeft() const;
 

@@ -68,7 +68,7 @@ std::string NearestScenario(const std::string& name, const std::vector<std::stri
 
 }  // namespace
 
-tl::unexpected<Error> NotShipped(const std::string& path) {
+tl::unexpected<Error> UnknownShippedName(const std::string& path) {
   std::vector<std::string> names = ShippedScenarios();
   names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
   // In the path of a file in a clone of the repository, such as "scenarios/quick/ik.yaml", the name of the scenario is
@@ -94,7 +94,7 @@ fs::path FindScenario(const std::string& path) {
   return shipped.empty() && holds_none ? fs::path(path) : shipped;
 }
 
-std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
+std::vector<Error> DescribeAmbiguousPaths(const std::vector<std::string>& paths) {
   std::vector<Error> told;
   for (const std::string& path : paths) {
     const fs::path shipped = FindShipped(path);
@@ -110,7 +110,7 @@ std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
 
 Result<std::vector<fs::path>> CopyShipped(const std::string& name, const fs::path& folder) {
   const fs::path found = FindShipped(name);
-  if (found.empty()) return NotShipped(name);
+  if (found.empty()) return UnknownShippedName(name);
   std::error_code error;
   const bool is_suite = fs::is_directory(found, error);
   const fs::path into = is_suite ? folder / name : folder;

@@ -21,7 +21,7 @@ std::filesystem::path FindShipped(const std::string& name);
 
 /// Returns the error for a name that is neither a path nor a shipped suite. The error proposes the shipped name that is
 /// most similar.
-tl::unexpected<Error> NotShipped(const std::string& path);
+tl::unexpected<Error> UnknownShippedName(const std::string& path);
 
 /// Returns the scenario file, or the folder of scenario files, that a path or a shipped name denotes. A local file or
 /// folder takes precedence, unless it is a folder without scenarios. The result is empty if nothing is found.
@@ -29,7 +29,7 @@ std::filesystem::path FindScenario(const std::string& path);
 
 /// Returns a note for each of `paths` that is both a local path and a shipped name. The note says which of the two the
 /// program uses.
-std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths);
+std::vector<Error> DescribeAmbiguousPaths(const std::vector<std::string>& paths);
 
 /// Copies a shipped scenario or suite into `folder` and returns the new files. Fails if `name` is unknown or if a file
 /// exists.

@@ -308,7 +308,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
   std::vector<std::string> files;
   for (const std::string& named : paths) {
     const std::string path = FindScenario(named).string();
-    if (path.empty()) return NotShipped(named);
+    if (path.empty()) return UnknownShippedName(named);
     std::error_code error;
     if (fs::is_directory(path, error)) {
       std::vector<std::string> inside;

@@ -154,8 +154,8 @@ Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
   return answers;
 }
 
-Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
-                              const OnProgress& on_progress) {
+Result<ScenarioSummary> SummariseInParallel(const Study& study, const ScenarioTable& table, std::uint64_t seed,
+                                            int jobs, const OnProgress& on_progress) {
   constexpr std::size_t kMinRowsToShare = 20'000;  // for fewer rows, forking takes longer than the summary
   const auto conditions = table.conditions();
   const std::size_t methods = study.methods.size(), parts = conditions.size() * methods;

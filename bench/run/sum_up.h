@@ -21,7 +21,7 @@ Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
 /// Returns the same summary as Summarise. If there are many rows, `jobs` processes share the work, one pair of
 /// condition and method at a time; the summary does not depend on `jobs`. `on_progress` receives the number of finished
 /// pairs.
-Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs,
-                              const OnProgress& on_progress = {});
+Result<ScenarioSummary> SummariseInParallel(const Study& study, const ScenarioTable& table, std::uint64_t seed,
+                                            int jobs, const OnProgress& on_progress = {});
 
 }  // namespace etude

@@ -55,7 +55,7 @@ CapturedMotion Capture(std::span<const NamedCamera> cameras, std::span<const See
     matrices.push_back(MatrixOf(camera));
     people.push_back(UndistortPeople(camera, seen[i]));
   }
-  RecoverPersonOptions recover = UsualRecovery(options.rate_hz, longer_side);
+  RecoverPersonOptions recover = DefaultRecovery(options.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person);
   recover.cutoff_hz = options.smooth_hz;
   RecoveredPerson person = OrThrow(RecoverPerson(matrices, people, recover));

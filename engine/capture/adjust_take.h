@@ -33,7 +33,7 @@ std::array<double, 10> ListOf(const LimbLengths& lengths);
 struct AdjustTakeInputs {
   MeasureInputs pictures;  ///< cameras and marks; the member `known` is ignored
   LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
-  /// For each frame, the joint positions at which the search starts (`BridgeJoints`).
+  /// For each frame, the joint positions at which the search starts (`InterpolateJoints`).
   std::span<const OptionalJoints> start;
 };
 

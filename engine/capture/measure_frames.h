@@ -60,8 +60,8 @@ struct MeasureInputs {
 struct MeasureOptions {
   /// Minimum angle between two viewing planes of a limb, radians, at which the limb's strokes alone give its direction.
   /// The error of the direction is the error of the strokes times 1/sin(angle), about seven times at 8°. Below this
-  /// minimum, the planes are kept and combined with neighbouring frames (`BridgeGaps`). Raise the minimum if marks are
-  /// inaccurate; lower it if marks are accurate or the cameras are close together.
+  /// minimum, the planes are kept and combined with neighbouring frames (`InterpolateGaps`). Raise the minimum if marks
+  /// are inaccurate; lower it if marks are accurate or the cameras are close together.
   double min_plane_angle = Radians(8);
   /// Strokes shorter than this, in pixels, give no direction: for a limb that lies nearly along the line of sight, the
   /// errors of the marks hide the direction. The default is three times the usual error of a mark, which is 2 pixels in

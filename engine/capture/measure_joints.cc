@@ -172,7 +172,7 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
   return measured;
 }
 
-std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> measured) {
+std::vector<OptionalJoints> InterpolateJoints(std::span<const JointMeasurements> measured) {
   std::vector<OptionalJoints> joints(measured.size());
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     std::vector<std::optional<glm::dvec3>> track;

@@ -52,7 +52,7 @@ using OptionalJoints = RoleVectors;
 
 /// Fills the gaps of each joint's track: linearly between measurements, constant before the first and after the last. A
 /// joint that no frame measures stays empty.
-std::vector<OptionalJoints> BridgeJoints(std::span<const JointMeasurements> measured);
+std::vector<OptionalJoints> InterpolateJoints(std::span<const JointMeasurements> measured);
 
 /// Smooths each joint's track independently (`SmoothTrack`) with the most likely acceleration density, and fills the
 /// gaps. A joint that no frame measures stays empty.

@@ -141,7 +141,7 @@ std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& in
   return frames;
 }
 
-std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames) {
+std::vector<RecoveredFrame> RepeatLastPose(std::span<const std::optional<RecoveredFrame>> frames) {
   const auto first = std::find_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.has_value(); });
   assert(first != frames.end());
   std::vector<RecoveredFrame> held;
@@ -168,7 +168,7 @@ LiveRecovery::LiveRecovery(const CaptureBody& body, const RecoverOptions& recove
 std::optional<RecoveredFrame> LiveRecovery::Next(const FrameMeasurement& measured, const KnownAngles& known) {
   if (latest_.size() > static_cast<std::size_t>(bridge_.max_gap)) latest_.erase(latest_.begin());
   latest_.push_back(measured);
-  return recovery_.Next(BridgeLast(latest_, bridge_), /*is_marked=*/true, known);
+  return recovery_.Next(ExtrapolateLast(latest_, bridge_), /*is_marked=*/true, known);
 }
 
 }  // namespace etude

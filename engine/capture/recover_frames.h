@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/capture/bridge_gaps.h"
 #include "engine/capture/fit_pose.h"
+#include "engine/capture/interpolate_gaps.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/limb_lengths.h"
@@ -88,14 +88,14 @@ class FrameRecovery {
 
 /// Gives each empty frame the last skeleton before this frame; a frame before the first skeleton gets the first
 /// skeleton. At least one frame must not be empty.
-std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
+std::vector<RecoveredFrame> RepeatLastPose(std::span<const std::optional<RecoveredFrame>> frames);
 
 /// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the body with which `frames`
 /// were recovered.
 Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name);
 
 /// Recovers a motion live: each skeleton is computed from the marks up to its frame. Values that a frame lacks come
-/// from the frames before it (`BridgeLast`); later frames do not change the skeleton.
+/// from the frames before it (`ExtrapolateLast`); later frames do not change the skeleton.
 class LiveRecovery {
  public:
   /// `body` must outlive this object.
@@ -107,7 +107,7 @@ class LiveRecovery {
  private:
   const BridgeOptions bridge_;
   FrameRecovery recovery_;
-  std::vector<FrameMeasurement> latest_;  ///< the last frames, as many as BridgeLast uses
+  std::vector<FrameMeasurement> latest_;  ///< the last frames, as many as ExtrapolateLast uses
 };
 
 }  // namespace etude

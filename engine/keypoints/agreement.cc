@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/keypoints/least_loss.h"
+#include "engine/keypoints/plane_search.h"
 
 namespace etude {
 namespace {
@@ -156,7 +156,7 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
   };
   const auto before = loss_of({});
   if (!before) return std::nullopt;
-  LeastLoss2 least([&](double shift, double turn) { return loss_of(clock_of(shift, turn)); }, *before);
+  PlaneSearch least([&](double shift, double turn) { return loss_of(clock_of(shift, turn)); }, *before);
   for (double t = -3; t <= 3; t += 1) {
     for (double s = -2; s <= 2; s += 1) least.Try(s, t);
   }

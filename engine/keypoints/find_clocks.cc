@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "engine/cameras/triangulation.h"
-#include "engine/keypoints/least_loss.h"
 #include "engine/keypoints/moving_person.h"
+#include "engine/keypoints/plane_search.h"
 #include "engine/keypoints/synchronise_people.h"
 
 namespace etude {
@@ -109,7 +109,7 @@ class ClockFinder {
       const double drift = stretch / std::max(1.0, middle);
       return FilmClock{given.offset + shift - stretch, given.drift + drift};
     };
-    LeastLoss2 least([&](double shift, double stretch) { return LossOf(c, moved(shift, stretch), others); }, before);
+    PlaneSearch least([&](double shift, double stretch) { return LossOf(c, moved(shift, stretch), others); }, before);
     // Grid search: offsets first, then drifts near the best offset.
     for (int s = -max_frames; s <= max_frames; ++s) least.Try(s, 0);
     const double coarse = least.x();

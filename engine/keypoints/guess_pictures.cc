@@ -9,7 +9,7 @@
 
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/triangulation.h"
-#include "engine/keypoints/mend_people.h"
+#include "engine/keypoints/correct_people.h"
 #include "engine/keypoints/recover_person.h"
 
 namespace etude {
@@ -232,7 +232,7 @@ PictureOfFilm Turned(PictureOfFilm film, int turns) {
   return film;
 }
 
-double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence) {
+double EpipolarDistanceOf(std::span<const PictureOfFilm> films, double min_confidence) {
   return Guesser(films, min_confidence).MissOfAll({});
 }
 

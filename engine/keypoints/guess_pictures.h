@@ -46,7 +46,7 @@ std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, do
 /// Maps the keypoints as declared, and returns their epipolar distance as a share of the person's height: the mean,
 /// over pairs of cameras, of the median distance of one camera's keypoints from the other camera's epipolar lines.
 /// Returns 1 if the distance cannot be computed.
-double MissOfPictures(std::span<const PictureOfFilm> films, double min_confidence);
+double EpipolarDistanceOf(std::span<const PictureOfFilm> films, double min_confidence);
 
 /// An epipolar distance above this share of the person's height indicates a mistake, not only imprecise keypoints.
 constexpr double kMaxPlausibleMiss = 0.05;

@@ -212,7 +212,7 @@ class SessionGuesser {
 
   SessionGuess Run() {
     SessionGuess found;
-    const double said = MissOfPictures(films_, least_confidence_);
+    const double said = EpipolarDistanceOf(films_, least_confidence_);
     constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
     // Test all hypotheses. Of the hypotheses that at least halve the distance, keep the best.
     if (said > kOff) {
@@ -241,17 +241,18 @@ class SessionGuesser {
   }
 
  private:
-  /// Corrects each film's pictures by `GuessPictures` alone, and returns their epipolar distance (`MissOfPictures`).
+  /// Corrects each film's pictures by `GuessPictures` alone, and returns their epipolar distance
+  /// (`EpipolarDistanceOf`).
   double MissAsGuessed() const {
     Films guessed = films_;
     const std::vector<PictureGuess> guesses = GuessPictures(films_, least_confidence_);
     for (std::size_t i = 0; i < guessed.size(); ++i) guessed[i].fit = guesses[i].fit;
-    return MissOfPictures(guessed, least_confidence_);
+    return EpipolarDistanceOf(guessed, least_confidence_);
   }
 
   // Keeps `films` as the best hypothesis if they have the smallest distance so far.
   void Try(Films films, std::string told, int turns = 0, bool is_size = false) {
-    const double miss = MissOfPictures(films, least_confidence_);
+    const double miss = EpipolarDistanceOf(films, least_confidence_);
     if (!(miss < least_)) return;
     least_ = miss;
     best_ = std::move(films);
@@ -296,14 +297,14 @@ class SessionGuesser {
   }
 
   /// Searches the scale and shift that fit the rig best, from several sizes of the pictures; returns them with their
-  /// MissOfPictures.
+  /// EpipolarDistanceOf.
   std::pair<FreeFit, double> FitFreely() const {
-    std::pair<FreeFit, double> best{FreeFit(0), MissOfPictures(films_, least_confidence_)};
+    std::pair<FreeFit, double> best{FreeFit(0), EpipolarDistanceOf(films_, least_confidence_)};
     const FreeFitter fitter(films_, least_confidence_);
     for (const double scale : {0.25, 0.5, 1.0, 1.4, 2.0, 4.0}) {
       const double log = std::log(scale), corner = 0.5 * (scale - 1);  // scaled about the corner
       const FreeFit fit = fitter.From({log, log, corner, corner});
-      const double miss = MissOfPictures(Fitted(films_, fit), least_confidence_);
+      const double miss = EpipolarDistanceOf(Fitted(films_, fit), least_confidence_);
       if (miss < best.second) best = {fit, miss};
     }
     return best;

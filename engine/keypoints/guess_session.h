@@ -26,8 +26,8 @@ struct SessionGuess {
 /// - the rig's poses map from the cameras to the world, its cameras look along −z (OpenGL), or both;
 /// - the keypoints belong to pictures of another size, count v from below, have x and y exchanged, are all mirrored, or
 ///   are relative to a square around the picture or to its longer side. The candidate with the smallest distance to
-///   epipolar lines (`MissOfPictures`) is taken if that distance is less than 5 % of the height, and less than half of
-///   the distance that remains after `GuessPictures`. For a half turn of all films, less than nine tenths of the
+///   epipolar lines (`EpipolarDistanceOf`) is taken if that distance is less than 5 % of the height, and less than half
+///   of the distance that remains after `GuessPictures`. For a half turn of all films, less than nine tenths of the
 ///   uncorrected distance is enough if the turn makes an upside-down person upright.
 ///
 /// A scale and a shift of both coordinates, common to all films, are compared with the correction of the picture size.

@@ -92,7 +92,7 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
   return places;
 }
 
-void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap) {
+void InterpolatePoints(std::span<LandmarkPositions> frames, std::size_t max_gap) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     FillGaps(
         frames.size(), max_gap, [&](std::size_t frame) { return frames[frame][i].has_value(); },

@@ -48,7 +48,7 @@ std::vector<LandmarkPositions> TriangulatePerson(std::span<const ProjectionMatri
                                               const TriangulateOptions& options, TriangulationReport* report = nullptr);
 
 /// Fills gaps of at most `max_gap` frames by linear interpolation between the landmark's positions before and after.
-void BridgePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
+void InterpolatePoints(std::span<LandmarkPositions> frames, std::size_t max_gap);
 
 /// Smooths positions over time by a Gaussian filter that passes half of the power at `cutoff_hz`. Each position becomes
 /// a weighted mean of the positions around it. The filter has no delay. A cutoff of at least half the rate changes

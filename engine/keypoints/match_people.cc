@@ -9,7 +9,7 @@
 
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/triangulation.h"
-#include "engine/keypoints/mend_people.h"
+#include "engine/keypoints/correct_people.h"
 
 namespace etude {
 namespace {

@@ -143,7 +143,7 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
   return people;
 }
 
-RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
+RecoverPersonOptions DefaultRecovery(double rate_hz, double longer_side_px) {
   constexpr double kOutlierShare = 0.03;  // of the picture's longer side
   constexpr double kMaxAbsence_s = 0.5, kMaxReturn_s = 3;
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
@@ -177,7 +177,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   TriangulateOptions triangulate = options.triangulate;
   if (options.mends) {
     const double least = triangulate.min_confidence;
-    person.mends = MendPerson(cameras, people, least, wanted);
+    person.mends = CorrectPerson(cameras, people, least, wanted);
     triangulate.robust.outlier_px =
         OutlierLimit(cameras, wanted, least, options.min_outlier_px, triangulate.robust.outlier_px);
   }
@@ -187,7 +187,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
 }
 
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options) {
-  BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.max_gap_s * options.rate_hz)));
+  InterpolatePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.max_gap_s * options.rate_hz)));
   if (options.cutoff_hz > 0) SmoothPoints(person.landmarks, options.rate_hz, options.cutoff_hz);
   ASSIGN_OR_RETURN(const CaptureBody body, MedianBody(person.landmarks));
   person.body = body;

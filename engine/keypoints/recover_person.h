@@ -7,8 +7,8 @@
 
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
+#include "engine/keypoints/correct_people.h"
 #include "engine/keypoints/keypoint_motion.h"
-#include "engine/keypoints/mend_people.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
@@ -45,7 +45,7 @@ struct RecoverPersonOptions {
   std::size_t person = 0;
   double max_gap_s = 0.5;  ///< maximum length of gaps that are filled
   double cutoff_hz = 0;    ///< cutoff of the low-pass filter of positions; 0 turns it off
-  /// If true, MendPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
+  /// If true, CorrectPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
   bool mends = false;
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
@@ -53,7 +53,7 @@ struct RecoverPersonOptions {
 /// Returns the options for pictures whose longer side is `longer_side_px`. A keypoint is an outlier if it is farther
 /// than 3 % of that side from the projection of its triangulated point. Somebody who was not seen for half a second
 /// is a new person.
-RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
+RecoverPersonOptions DefaultRecovery(double rate_hz, double longer_side_px);
 
 /// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
@@ -61,7 +61,7 @@ struct RecoveredPerson {
   /// Positions of the requested person's landmarks. `FitLocated` fills their gaps and smooths them.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
-  std::vector<Mend> mends;  ///< corrections of the requested person's keypoints
+  std::vector<PersonCorrection> mends;  ///< corrections of the requested person's keypoints
   double outlier_px = 0;    ///< the threshold for outliers that was used, pixels
   CaptureBody body;
   std::vector<TreeState> states;  ///< poses of the body, one per frame
@@ -73,16 +73,16 @@ struct RecoveredPerson {
 /// Removes the lens distortion from keypoints in the camera's own pixels.
 SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 
-/// Finds all people and triangulates the requested one: MatchPeople, optionally MendPerson, TriangulatePerson. Fails if
-/// nobody is seen by two cameras, or if there are fewer people than the requested index.
+/// Finds all people and triangulates the requested one: MatchPeople, optionally CorrectPerson, TriangulatePerson. Fails
+/// if nobody is seen by two cameras, or if there are fewer people than the requested index.
 /// @param cameras at least two, without lens distortion; all pixels must be undistorted (`UndistortPeople`)
 /// @param people the people of each camera, all with the same number of frames, taken at the same times (otherwise use
 /// `EstimateOffsets`, `PeopleInTime` first)
 Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                      const RecoverPersonOptions& options);
 
-/// Recovers the motion of a person whose landmarks are known: BridgePoints, SmoothPoints, then the person's own body
-/// (MedianBody) and its poses (FitPerson). Fails if no frame shows the length of some bone, or if no frame shows
+/// Recovers the motion of a person whose landmarks are known: InterpolatePoints, SmoothPoints, then the person's own
+/// body (MedianBody) and its poses (FitPerson). Fails if no frame shows the length of some bone, or if no frame shows
 /// enough joints.
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
 

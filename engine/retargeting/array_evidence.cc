@@ -74,13 +74,13 @@ std::optional<double> UnitOfSpread(double spread) {
   return std::nullopt;
 }
 
-Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
+Standing FindStanding(std::span<const glm::dvec3> positions, const std::vector<std::string>& names) {
   const auto column_of = [&](Role role) {
     return static_cast<std::size_t>(std::ranges::find(names, RoleName(role), PlainJointName) - names.begin());
   };
   const std::array<std::size_t, 4> columns = {column_of(Role::kLeftShoulder), column_of(Role::kRightShoulder),
                                               column_of(Role::kLeftKnee), column_of(Role::kRightKnee)};
-  if (std::ranges::count(columns, names.size()) > 0) return Standing::kNotTold;
+  if (std::ranges::count(columns, names.size()) > 0) return Standing::kUnknown;
   const std::array<std::size_t, 4> seat = {column_of(Role::kLeftHip), column_of(Role::kRightHip),
                                            column_of(Role::kLeftAnkle), column_of(Role::kRightAnkle)};
   const bool has_seat = std::ranges::count(seat, names.size()) == 0;
@@ -106,7 +106,7 @@ Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<st
     return has_wrists && StandsOnHands(positions, names.size(), wrists, Median(lengths)) ? Standing::kOnHands
                                                                                          : Standing::kAlongMinusY;
   }
-  return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kNotTold;
+  return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kUnknown;
 }
 
 }  // namespace etude

@@ -18,13 +18,13 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 /// nullopt if there is no such unit.
 std::optional<double> UnitOfSpread(double spread);
 
-/// The direction of a standing body in the array's axes; kNotTold if it stands along Y on its feet, or if its direction
+/// The direction of a standing body in the array's axes; kUnknown if it stands along Y on its feet, or if its direction
 /// is not known.
-enum class Standing { kNotTold, kAlongMinusY, kOnHands, kAlongZ };
+enum class Standing { kUnknown, kAlongMinusY, kOnHands, kAlongZ };
 /// Returns the direction in which the body stands: from knees to shoulders or, for −Y only, alternatively the sum of
 /// the directions of trunk and shanks, because the thighs of people who sit are horizontal. The direction must be the
 /// same in at least three quarters of the frames that show these joints. A body that is upside down stands on its hands
 /// if a wrist is near the lowest joint in most frames and if that joint stays at one height.
-Standing HowItStands(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
+Standing FindStanding(std::span<const glm::dvec3> positions, const std::vector<std::string>& names);
 
 }  // namespace etude

@@ -167,7 +167,7 @@ Result<ArrayJoints> JointsOfArray(const NumberArray& array, const std::optional<
   }
   // Convert to metres.
   const double unit = motion.metres_per_unit = UnitOfSpread(SpreadOf(places, joints)).value_or(1);
-  const Standing standing = told ? Standing::kNotTold : HowItStands(places, motion.names);
+  const Standing standing = told ? Standing::kUnknown : FindStanding(places, motion.names);
   const bool is_turned = standing == Standing::kAlongMinusY;
   const glm::dvec3 scale = unit * (is_turned ? glm::dvec3(1, -1, -1) : glm::dvec3(1));
   for (auto& frame : motion.frames) {
@@ -365,7 +365,7 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     motion.notes.push_back(fmt::format("turned upright from Z up ({})", told.up ? "given" : "the file's `up`"));
   }
   for (glm::dvec3& place : motion.positions) place = Upright(unit * place, up);
-  const Standing standing = told.up ? Standing::kNotTold : HowItStands(motion.positions, motion.joints);
+  const Standing standing = told.up ? Standing::kUnknown : FindStanding(motion.positions, motion.joints);
   if (!axis.empty()) {
     const bool lies = standing == Standing::kAlongZ, is_down = standing == Standing::kAlongMinusY;
     if (lies || is_down) {

@@ -30,7 +30,7 @@ constexpr double kMaxGap_s = 1;
 
 /// Fills gaps of at most `most` frames by linear interpolation; returns the number of filled frames. `longest` becomes
 /// the gap if the gap is longer.
-int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most, FrameRange& longest) {
+int InterpolateGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most, FrameRange& longest) {
   const auto at = [&](std::size_t frame) -> MarkerPosition& { return frames[frame][joint]; };
   return FillGaps(
       frames.size(), most, [&](std::size_t frame) { return at(frame).has_value(); },
@@ -268,7 +268,8 @@ std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, cons
   int filled = 0;
   FrameRange longest_gap{0, -1};
   const auto max_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
-  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, max_gap, longest_gap);
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint)
+    filled += InterpolateGaps(frames, joint, max_gap, longest_gap);
   // Rotate upright. Files that Etude wrote have Y up; arrays of other layouts only borrow the names of Etude's joints.
   UpRule rule = options.up;
   const bool is_borrowed = !options.layout.empty() && (options.layout != "etude" || options.is_of_camera);

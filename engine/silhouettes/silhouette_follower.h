@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
-#include "engine/silhouettes/moment_fitter.h"
+#include "engine/silhouettes/instant_fitter.h"
 #include "engine/silhouettes/silhouette.h"
 
 namespace etude {
@@ -48,7 +48,7 @@ class SilhouetteFollower {
   SilhouetteBody body_;
   const std::vector<ProjectionMatrix> cameras_;
   const std::optional<TreeState> start_;
-  MomentFitter fitter_{body_, options_};
+  InstantFitter fitter_{body_, options_};
   std::vector<Path> paths_;    ///< by ascending cost; empty until somebody was found
   int moments_ = 0;            ///< moments (all films' pictures of one time) since the body was found
   int since_search_ = 0;       ///< moments since the last search for limbs

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/silhouettes/fit_joints.h"
-#include "engine/silhouettes/moment_fitter.h"
+#include "engine/silhouettes/instant_fitter.h"
 #include "engine/silhouettes/turns.h"
 
 namespace etude {
@@ -349,7 +349,7 @@ class Tracker {
   const TrackOptions& options_;
   const std::size_t frame_count_;
   std::vector<MomentViews> views_;  // one per frame
-  MomentFitter fitter_{body_, options_};
+  InstantFitter fitter_{body_, options_};
 };
 
 }  // namespace

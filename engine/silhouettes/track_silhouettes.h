@@ -6,7 +6,7 @@
 
 #include "engine/cameras/camera.h"
 #include "engine/silhouettes/fit_silhouettes.h"
-#include "engine/silhouettes/moment_fitter.h"
+#include "engine/silhouettes/instant_fitter.h"
 #include "engine/silhouettes/silhouette.h"
 #include "engine/silhouettes/silhouette_body.h"
 

@@ -13,13 +13,13 @@ namespace etude {
 inline constexpr double kMaxClock = 1e19;
 
 /// Returns true for three coordinates that stand for a missing joint: 0, 0, 0 or −1, −1, −1.
-inline bool IsNoPlace(const glm::dvec3& place) { return place == glm::dvec3(0) || place == glm::dvec3(-1); }
+inline bool IsMissingPosition(const glm::dvec3& place) { return place == glm::dvec3(0) || place == glm::dvec3(-1); }
 
-/// Removes the positions of a frame that stand for a missing joint (IsNoPlace). It is for formats whose origin may be a
-/// point of the body: a position at the origin stands for a missing joint only if the joint has other positions in the
-/// recording, or if all joints of the frame are at the origin. `elsewhere` tells which joints have other positions;
-/// this frame's are added to it.
-void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere);
+/// Removes the positions of a frame that stand for a missing joint (IsMissingPosition). It is for formats whose origin
+/// may be a point of the body: a position at the origin stands for a missing joint only if the joint has other
+/// positions in the recording, or if all joints of the frame are at the origin. `elsewhere` tells which joints have
+/// other positions; this frame's are added to it.
+void RemoveMissingPositions(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere);
 
 /// Each function reads one format. The positions in the result are in the file's own unit. ReadStreamRecording then
 /// applies the checks that all formats share.

@@ -130,7 +130,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, cons
     const std::size_t joint = recording.named_joints.empty() ? j : recording.named_joints[j];
     const auto at = row.subspan(layout.first + layout.stride * joint, layout.stride);
     const glm::dvec3 place(at[0], at[1], at[2]);
-    if (std::isnan(place.x + place.y + place.z) || IsNoPlace(place)) continue;
+    if (std::isnan(place.x + place.y + place.z) || IsMissingPosition(place)) continue;
     if (has_states && at[3] == 0) continue;
     if (has_states && at[3] == 1) states[j] = TrackingState::kInferred;
     places[j] = FromSensor(place);

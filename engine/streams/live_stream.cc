@@ -114,7 +114,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   recording.frames.clear();
   meaning_ = std::move(recording);
   for (RecordedFrame& frame : frames) {
-    LeaveNoPlacesOut(frame, elsewhere_);
+    RemoveMissingPositions(frame, elsewhere_);
     RETURN_IF_ERROR(Add(std::move(frame), stream));
   }
   first_lines_.clear();
@@ -203,7 +203,7 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   }
   ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
   RecordedFrame frame{.places = row.places};
-  LeaveNoPlacesOut(frame, elsewhere_);
+  RemoveMissingPositions(frame, elsewhere_);
   const TimeScale scale{.first = meaning_->first_count, .seconds = meaning_->seconds_per_count};
   frame.time_s =
       meaning_->records_times ? scale.SecondsOf(row.time_s) : static_cast<double>(frames_) / meaning_->rate_hz;

@@ -59,7 +59,7 @@ class LiveStream {
   bool has_gone_back_ = false, has_leapt_ = false, has_damage_ = false;
   double shift_s_ = 0;                        // converts the device's clock to the stream's times
   int damaged_ = 0;                           // number of damaged rows since the last good row
-  std::array<bool, kRoleCount> elsewhere_{};  // joints that were not only at the origin (LeaveNoPlacesOut)
+  std::array<bool, kRoleCount> elsewhere_{};  // joints that were not only at the origin (RemoveMissingPositions)
   BodyJumps jumps_;
   bool has_jumped_ = false;
   std::vector<std::string> remarks_;        // not yet taken

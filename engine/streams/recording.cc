@@ -105,10 +105,10 @@ std::optional<double> GreatestDepth(const StreamRecording& recording) {
 }
 
 /// Removes the positions of all frames that stand for missing joints.
-void LeaveNoPlacesOut(std::vector<RecordedFrame>& frames) {
+void RemoveMissingPositions(std::vector<RecordedFrame>& frames) {
   std::array<bool, kRoleCount> elsewhere{};
-  for (RecordedFrame& frame : std::vector(frames)) LeaveNoPlacesOut(frame, elsewhere);
-  for (RecordedFrame& frame : frames) LeaveNoPlacesOut(frame, elsewhere);
+  for (RecordedFrame& frame : std::vector(frames)) RemoveMissingPositions(frame, elsewhere);
+  for (RecordedFrame& frame : frames) RemoveMissingPositions(frame, elsewhere);
 }
 
 /// Returns the time of each row on the grid, seconds from the first row; empty if a row is on no frame.
@@ -234,8 +234,8 @@ Result<void> CheckReach(const RecordedFrame& frame, const std::string& file) {
   return {};
 }
 
-void LeaveNoPlacesOut(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere) {
-  const auto is_elsewhere = [](const auto& place) { return place && !IsNoPlace(*place); };
+void RemoveMissingPositions(RecordedFrame& frame, std::array<bool, kRoleCount>& elsewhere) {
+  const auto is_elsewhere = [](const auto& place) { return place && !IsMissingPosition(*place); };
   const bool shows_body = std::ranges::any_of(frame.places, is_elsewhere);
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (is_elsewhere(frame.places[i])) elsewhere[i] = true;
@@ -329,7 +329,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
     frame.places = csv.frames[t];
     if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "this row has no time, but other rows have one");
   }
-  LeaveNoPlacesOut(recording.frames);
+  RemoveMissingPositions(recording.frames);
   return recording;
 }
 
@@ -359,7 +359,7 @@ Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& 
       if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = markers.frames[t][marker];
     }
   }
-  LeaveNoPlacesOut(recording.frames);
+  RemoveMissingPositions(recording.frames);
   return recording;
 }
 

@@ -61,7 +61,7 @@ const Json* ConfidencesOf(const Json& body) {
 /// missing position.
 std::optional<glm::dvec3> PlaceAt(const Json& joint) {
   const auto x = NumberAt(joint, 0), y = NumberAt(joint, 1), z = NumberAt(joint, 2);
-  if (!x || !y || !z || IsNoPlace({*x, *y, *z})) return std::nullopt;
+  if (!x || !y || !z || IsMissingPosition({*x, *y, *z})) return std::nullopt;
   return glm::dvec3(*x, -*y, -*z);
 }
 
@@ -208,7 +208,7 @@ class NtuReader {
     const glm::dvec3 p(values[0], values[1], values[2]);
     const double state = values[11];
     Joint joint;
-    if (is_missing || IsNoPlace(p) || state == 0) return joint;
+    if (is_missing || IsMissingPosition(p) || state == 0) return joint;
     joint.place = glm::dvec3(-p.x, p.y, -p.z);  // converted as in kinect_rows.cc (FromSensor)
     if (state == 1) joint.state = TrackingState::kInferred;
     return joint;

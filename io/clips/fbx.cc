@@ -28,7 +28,7 @@ constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kMaxGlbBytes = std::size_t{1} << 30;
 constexpr unsigned kMinVersion = 7;
 constexpr const char* kReaderFailed = "the FBX file is damaged: its reader stopped";
-constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
+constexpr char kSaidGlb = 'G', kSaidError = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
 
@@ -96,7 +96,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t maximum, bool& i
 }
 
 /// Runs in the child process. Answers each file with kSaidGlb, the bytes of FbxKeyFacts, a line with the reader's name
-/// and the GLB file; or with kSaidComplaint and an error message.
+/// and the GLB file; or with kSaidError and an error message.
 int ReadFilesInChild(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
@@ -121,7 +121,7 @@ int ReadFilesInChild(int socket) {
     std::string said = missing;
     FbxKeyFacts facts;
     const bool went_well = read != nullptr && read(*bytes, said, facts);
-    std::string head(1, went_well ? kSaidGlb : kSaidComplaint);
+    std::string head(1, went_well ? kSaidGlb : kSaidError);
     if (went_well) head.append(reinterpret_cast<const char*>(&facts), sizeof facts).append(name + "\n");
     if (!SendBlock(socket, head + said)) break;
   }

@@ -81,8 +81,8 @@ std::string_view TruthName(Truth truth) {
   return kNames[static_cast<std::size_t>(truth)];
 }
 
-Truth TruthOf(const Stray& stray, const StrayLimits& limits) {
-  const auto is_within = [&](const Stray& limit) {
+Truth TruthOf(const PerformanceDeviation& stray, const StrayLimits& limits) {
+  const auto is_within = [&](const PerformanceDeviation& limit) {
     return stray.limb_deg <= limit.limb_deg && stray.timing_beats <= limit.timing_beats;
   };
   if (is_within(limits.right)) return Truth::kRight;

@@ -50,7 +50,7 @@ std::string FaultNames(const std::vector<GradedFault>& faults);
 /// The deviation of a performance from the intended performance, in which the same person performs the requested move
 /// with the same habits and the same random variation, but without faults. This deviation does not depend on the motion
 /// of other people, on taught clips, or on recognisers.
-struct Stray {
+struct PerformanceDeviation {
   /// The largest error of a limb, degrees. A limb's error is the root mean square, over the performance, of the angle
   /// between the limb's danced direction and its meant direction. Poses are compared at equal shares of the
   /// performance, independently of timing.
@@ -70,20 +70,21 @@ std::string_view TruthName(Truth truth);
 
 /// The limits of a stray. A performance is right up to `right`, wrong above `wrong`, and grey between them (ours).
 struct StrayLimits {
-  Stray right{.limb_deg = 12, .timing_beats = 0.25};
-  Stray wrong{.limb_deg = 25, .timing_beats = 0.5};
+  PerformanceDeviation right{.limb_deg = 12, .timing_beats = 0.25};
+  PerformanceDeviation wrong{.limb_deg = 25, .timing_beats = 0.5};
 };
 
 /// Returns kRight if both measures of the stray are within `limits.right`, kWrong if at least one exceeds its value in
 /// `limits.wrong`, and kGrey otherwise.
-Truth TruthOf(const Stray& stray, const StrayLimits& limits = {});
+Truth TruthOf(const PerformanceDeviation& stray, const StrayLimits& limits = {});
 
-/// Computes `Stray::limb_deg` by comparing the meant and the danced pose at 32 shares of the performance.
+/// Computes `PerformanceDeviation::limb_deg` by comparing the meant and the danced pose at 32 shares of the
+/// performance.
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
                     const std::function<BodyPose(double share)>& danced);
-/// Computes `Stray::timing_beats`; the performance lasts `beats` beats. Each function maps a time, in [0, 1] of the
-/// performance's length, to the share of the performance that is reached at that time, clamped to [0, 1]. Both
-/// functions are sampled at 64 times.
+/// Computes `PerformanceDeviation::timing_beats`; the performance lasts `beats` beats. Each function maps a time, in
+/// [0, 1] of the performance's length, to the share of the performance that is reached at that time, clamped to [0, 1].
+/// Both functions are sampled at 64 times.
 double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
                         double beats);
 

@@ -20,7 +20,7 @@ constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
 constexpr double kOffBeats = 1;            // largest shift before or after the beat, beats
 constexpr double kMaxOffBeat = 0.7 / kPi;  // upper limit of the shift, share of the move: time never runs backwards
-constexpr double kUnstopped = 0.35;        // share of the move that is danced before the person stops
+constexpr double kMinDancedShare = 0.35;   // share of the move that is danced before the person stops
 
 /// Returns 1 while `share` is below `severity` and 0 while it is above, with a smooth change around `severity`.
 double First(double share, double severity) {
@@ -137,7 +137,7 @@ double Rendition::Presence(double share) const {
   double presence = 1;
   if (const auto skipped = Find(Fault::kSkipped)) presence *= 1 - First(share, skipped->severity);
   if (const auto stopped = Find(Fault::kStopped)) {
-    const double stops = 1 - (1 - kUnstopped) * stopped->severity;
+    const double stops = 1 - (1 - kMinDancedShare) * stopped->severity;
     presence *= 1 - Smootherstep((share - stops) / kChange);
   }
   return presence;
@@ -173,7 +173,7 @@ double Rendition::DueOf(double share) const {
   return high;
 }
 
-Stray Rendition::Strays() const {
+PerformanceDeviation Rendition::Deviation() const {
   if (faults_.empty()) return {};
   const BodyDimensions& body = meant_->person().body;
   const Controls rest = RestOf(meant_->person());
@@ -196,7 +196,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };
     if (TruthOf({.limb_deg = LimbStrayDeg(shifted, mirrored)}) != Truth::kWrong) return false;
   }
-  return TruthOf(rendition.Strays()) == Truth::kWrong;
+  return TruthOf(rendition.Deviation()) == Truth::kWrong;
 }
 
 ShowableFaults::ShowableFaults(std::span<const Move> moves) {

@@ -67,7 +67,7 @@ class Rendition {
   double DueOf(double share) const;
 
   /// Computes the deviation from the intended performance. The deviation is zero without faults.
-  Stray Strays() const;
+  PerformanceDeviation Deviation() const;
 
  private:
   std::optional<GradedFault> Find(Fault fault) const;

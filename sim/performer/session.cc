@@ -78,7 +78,7 @@ class Dance {
 
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
-  Stray Strays() const { return rendition_.Strays(); }
+  PerformanceDeviation Deviation() const { return rendition_.Deviation(); }
   /// Returns the time at which the performance reaches beat `beat` of the move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
@@ -175,7 +175,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
   // Judge every event.
   for (std::size_t i = 0; i < dances.size(); ++i) {
     SessionEvent& event = performance.events[i];
-    event.stray = dances[i].Strays();
+    event.stray = dances[i].Deviation();
     event.truth = TruthOf(event.stray);
     if (event.IsRight()) event.first_right_s = dances[i].TimeOf(FindByName(moves, event.move)->key_poses.back().beat);
   }

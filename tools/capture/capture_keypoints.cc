@@ -30,7 +30,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
     const Intrinsics& in = view.camera.camera.intrinsics;
     longer_side = std::max<double>({longer_side, static_cast<double>(in.width), static_cast<double>(in.height)});
   }
-  RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
+  RecoverPersonOptions recover = DefaultRecovery(views.front().facts.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.max_gap_s = options.max_gap_s;
@@ -155,8 +155,8 @@ bool HangsMirrored(const RecoveredPerson& person, std::size_t cameras) {
   }
   for (std::size_t camera = 0; camera < cameras; ++camera) {
     std::size_t frames = 0;
-    for (const Mend& mend : person.mends) {
-      if (mend.camera == camera && mend.kind == Mend::Kind::kSwappedSides) frames += mend.frames.size();
+    for (const PersonCorrection& mend : person.mends) {
+      if (mend.camera == camera && mend.kind == PersonCorrection::Kind::kSwappedSides) frames += mend.frames.size();
     }
     exchanged += static_cast<double>(frames) > kMostly * static_cast<double>(person.landmarks.size());
   }

@@ -347,12 +347,12 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   return films;
 }
 
-constexpr Named<Mend::Kind> kMends[] = {
-    {"left and right were exchanged", Mend::Kind::kSwappedSides},
-    {"left and right of face and arms were exchanged", Mend::Kind::kSwappedArms},
-    {"left and right of hips and legs were exchanged", Mend::Kind::kSwappedLegs},
-    {"keypoints of another person were replaced by the person's own", Mend::Kind::kOtherPerson},
-    {"keypoints of another person were left out", Mend::Kind::kNobody}};
+constexpr Named<PersonCorrection::Kind> kMends[] = {
+    {"left and right were exchanged", PersonCorrection::Kind::kSwappedSides},
+    {"left and right of face and arms were exchanged", PersonCorrection::Kind::kSwappedArms},
+    {"left and right of hips and legs were exchanged", PersonCorrection::Kind::kSwappedLegs},
+    {"keypoints of another person were replaced by the person's own", PersonCorrection::Kind::kOtherPerson},
+    {"keypoints of another person were left out", PersonCorrection::Kind::kNobody}};
 
 void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
                MessageLog& told) {
@@ -366,7 +366,7 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
                     views[i].camera.name));
   }
   // Report repairs: exchanged sides and exchanged people.
-  for (const Mend& mend : person.mends) {
+  for (const PersonCorrection& mend : person.mends) {
     told.Tell(fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name,
                           NameOfValue(kMends, mend.kind), FramesText(mend.frames)));
   }

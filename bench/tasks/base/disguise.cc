@@ -75,15 +75,15 @@ class WanderingTurn {
 
  private:
   const LimbTurn limb_;
-  std::vector<WanderingDice> dice_;
+  std::vector<SmoothRandomFunction> dice_;
 };
 
 }  // namespace
 
-WanderingDice::WanderingDice(const WorldKey& key, std::string_view purpose)
+SmoothRandomFunction::SmoothRandomFunction(const WorldKey& key, std::string_view purpose)
     : dice_(key, purpose), constant_(dice_.Normal()) {}
 
-double WanderingDice::At(double seconds) {
+double SmoothRandomFunction::At(double seconds) {
   const double knot = std::floor(seconds / kKnotSeconds), u = seconds / kKnotSeconds - knot;
   const auto first = static_cast<std::size_t>(knot);
   while (knots_.size() < first + 4) knots_.push_back(dice_.Normal());

@@ -12,9 +12,9 @@ namespace etude {
 /// A random function of time with mean 0 and standard deviation 1. Half of its variance comes from a constant. The rest
 /// is a cubic B-spline with a new random coefficient every half second, so the function is twice continuously
 /// differentiable.
-class WanderingDice {
+class SmoothRandomFunction {
  public:
-  WanderingDice(const WorldKey& key, std::string_view purpose);
+  SmoothRandomFunction(const WorldKey& key, std::string_view purpose);
   /// Returns the value at a time ≥ 0, seconds.
   double At(double seconds);
 

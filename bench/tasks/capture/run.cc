@@ -26,7 +26,7 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
 /// before the first observation.
 std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
-  return BridgeJoints(run.measured.joints);
+  return InterpolateJoints(run.measured.joints);
 }
 
 /// Turns poses into recovered frames by adding the state of the body's tree that is nearest to each pose.
@@ -93,7 +93,7 @@ void RecoverEnds(CaptureRun& run) {
 }
 
 void RecoverBundle(CaptureRun& run) {
-  const std::vector<OptionalJoints> start = BridgeJoints(run.measured.joints);
+  const std::vector<OptionalJoints> start = InterpolateJoints(run.measured.joints);
   AdjustTakeOptions options;
   options.bundle.smoothness = SmoothnessOf(MakeTakeBody(run.body.lengths), kJudgedRateHz);
   options.bundle.adjusts_lengths = run.method.lengths == LengthSource::kMeasured;
@@ -122,7 +122,7 @@ Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const Cap
       if (HeightPx(person) > 0) seen.back().push_back(person);
     }
   }
-  return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
+  return RecoverPerson(run.cameras.matrices, people, DefaultRecovery(kJudgedRateHz, longer_side));
 }
 
 /// Copies a person's body and motion into the run. Frames for which `is_lost` is true stay without a skeleton.

@@ -6,7 +6,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/base/result.h"
-#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/interpolate_gaps.h"
 #include "engine/capture/recover_frames.h"
 #include "engine/kinematics/capture_body.h"
 

@@ -230,7 +230,8 @@ void FailWithoutPoses(const std::string& reason, CellResult& cell) {
   for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
 }
 
-/// Fills frames without a pose with the last pose before them or, at the start, with the first pose (as HoldFrames).
+/// Fills frames without a pose with the last pose before them or, at the start, with the first pose (as
+/// RepeatLastPose).
 std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
   std::vector<BodyPose> held;
   const auto first = std::find_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });
@@ -255,7 +256,7 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
     FailWithoutPoses(ReasonForNoSkeleton(run), cell);
     return cell;
   }
-  const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
+  const std::vector<RecoveredFrame> frames = RepeatLastPose(run.frames);
   ReportPoses(world, run, frames, cell);
   if (keeps_motion) {
     cell.recording = MakeRecording(world, run.take, run.observation, run.body, frames, run.method.name, moments);

@@ -125,7 +125,7 @@ MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<
   take.marks = std::move(marks);
   const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};
   take.frames = MeasureFrames(inputs);
-  take.seen = BridgeGaps(take.frames, bridge);
+  take.seen = InterpolateGaps(take.frames, bridge);
   take.joints = MeasureJoints(inputs);
   Digest directions, points;
   for (const FrameMeasurement& frame : take.frames) {

@@ -10,7 +10,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/cameras/dlt.h"
-#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/interpolate_gaps.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
@@ -47,7 +47,7 @@ struct MeasuredTake {
   /// and marks that disagree with the others are removed. Every method of recovery uses these marks.
   std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
-  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` after `BridgeGaps` has filled the gaps
+  std::vector<std::optional<LimbObservation>> seen;  ///< `frames` after `InterpolateGaps` has filled the gaps
   std::vector<JointMeasurements> joints;             ///< every joint, triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };

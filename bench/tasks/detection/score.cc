@@ -68,7 +68,7 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
     const FrameInterval& window = event.window;
     const std::optional<int>& recognised_at = verdict.events[i].recognised_at;
     const std::optional<int> called = recognised_at ? std::optional(window.begin + *recognised_at) : std::nullopt;
-    waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
+    waits.push_back(AcceptanceLatency(*event.first_right_s, called, window.end, world.stream.rate_hz));
   }
   return waits;
 }

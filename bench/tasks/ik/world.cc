@@ -61,7 +61,7 @@ void PullOutOfReach(const KinematicTree& tree, double beyond, RandomStream& dice
 
 }  // namespace
 
-TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice) {
+TreeState StretchedLimbPose(const KinematicTree& tree, RandomStream& dice) {
   TreeState state = StandingState(tree);
   // Crouch by a random angle of the shanks. The thighs lean backward, so that the hips move down vertically.
   const double shank = LengthOf(tree, kTreeLeftKnee), thigh = LengthOf(tree, kTreeLeftHip);
@@ -92,7 +92,7 @@ IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, co
   // Make the true pose and the start pose.
   if (options.start == IkStart::kStretched) {
     RandomStream dice(key, "crouch");
-    world.truth = CrouchBeneathStandingHands(tree, dice);
+    world.truth = StretchedLimbPose(tree, dice);
   } else {
     MakePoses(tree, options, key, world);
   }

@@ -16,7 +16,7 @@ namespace etude {
 /// the stretched arm. The right foot and the axes of all effectors are unchanged. At the start JᵀΔX = 0: each of the
 /// three position errors points along its limb through the joints, and the sum and the moment of these errors are
 /// zero. h is random, about 4 to 23 mm.
-TreeState CrouchBeneathStandingHands(const KinematicTree& tree, RandomStream& dice);
+TreeState StretchedLimbPose(const KinematicTree& tree, RandomStream& dice);
 
 /// One trial (like those in paper B's chapter 5): a true pose, and the problem of reaching the positions and axes of
 /// its end effectors from another pose. The true pose solves the problem, unless the options disturb targets or move

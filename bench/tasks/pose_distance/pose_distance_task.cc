@@ -75,7 +75,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
   PoseDistanceConditionFields().Read(input.condition, options);
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "pose-distance", PoseDistanceMethodFields()));
   DancedClips clips = DanceClips(input.clips);
-  if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
+  if (options.source == PairSource::kFrames && !HasTwoSources(clips)) {
     return Fail(input.condition.node().place,
                 "in task pose-distance, 'pairs: frames' needs 'clips' with at least two different clips, such as "
                 "['builtin:*']");

@@ -98,7 +98,7 @@ DancedClips DanceClips(const ClipLibrary& library) {
   return clips;
 }
 
-bool HoldsTwoDances(const DancedClips& clips) {
+bool HasTwoSources(const DancedClips& clips) {
   return std::adjacent_find(clips.identities.begin(), clips.identities.end(), std::not_equal_to<>()) !=
          clips.identities.end();
 }

@@ -60,12 +60,12 @@ struct DancedClips {
 DancedClips DanceClips(const ClipLibrary& library);
 
 /// Returns true if the clips have at least two different sources (`identities`).
-bool HoldsTwoDances(const DancedClips& clips);
+bool HasTwoSources(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
 /// Draws two clips from different sources and returns their indices. The trial number determines the first clip. The
-/// clips must have at least two sources (HoldsTwoDances).
+/// clips must have at least two sources (HasTwoSources).
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 
 /// Draws two clips, and `count` pairs of frames. Each pair has a random frame of one clip and a random frame of the

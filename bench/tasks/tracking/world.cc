@@ -92,7 +92,7 @@ class OpenAngles {
   const KinematicTree& tree_;
   const GaussNewtonSolver solver_;
   IkOptions options_ = IkBudget(100);
-  std::vector<WanderingDice> dice_;
+  std::vector<SmoothRandomFunction> dice_;
 };
 
 /// Returns the angles at which the first frame starts: the standing pose, or the truth plus noise.

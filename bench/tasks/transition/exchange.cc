@@ -137,7 +137,7 @@ Payload RequestPayload(const TransitionRequest& request, double max_wait_s) {
   return PayloadOf(std::move(json));
 }
 
-Payload NaturePayload(const Stage& stage, const TransitionRequest& request) {
+Payload NaturalLimitPayload(const Stage& stage, const TransitionRequest& request) {
   const double limit = NaturalLimitCm(NaturalJumpsOf(stage, request.from, request.to));
   return PayloadOf({{"natural_limit_cm", limit}});
 }

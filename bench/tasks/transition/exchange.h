@@ -33,7 +33,7 @@ Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 /// Encodes the truth: the largest jump that still counts as natural in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
-Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
+Payload NaturalLimitPayload(const Stage& stage, const TransitionRequest& request);
 
 /// The answer of an outside method, which describes the transition:
 ///

@@ -289,7 +289,7 @@ Result<Payload> TransitionRun::MakeProblem() {
 
 Result<Payload> TransitionRun::MakeTruth() {
   if (!request_) return tl::unexpected(request_.error());
-  return NaturePayload(basis_.stage, *request_);
+  return NaturalLimitPayload(basis_.stage, *request_);
 }
 
 Result<CellResult> TransitionRun::Judge(const Json& answer) {

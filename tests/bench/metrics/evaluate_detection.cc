@@ -69,9 +69,9 @@ Value Latency(const Json& in) {
   std::vector<Wait> waits;
   for (const Json& event : in.at("performances")) {
     const Json& called = event.at("called_frame");
-    waits.push_back(WaitForPraise(event.at("first_right_s").get<double>(),
-                                  called.is_null() ? std::nullopt : std::optional(called.get<int>()),
-                                  event.at("window_end_frame").get<int>(), in.at("rate_hz").get<double>()));
+    waits.push_back(AcceptanceLatency(event.at("first_right_s").get<double>(),
+                                      called.is_null() ? std::nullopt : std::optional(called.get<int>()),
+                                      event.at("window_end_frame").get<int>(), in.at("rate_hz").get<double>()));
   }
   return KaplanMeierMedian(waits);
 }

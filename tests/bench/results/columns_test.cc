@@ -258,7 +258,7 @@ TEST_F(ColumnsTest, ThatAreCutShortWhileTheyAreMappedEndTheProcessWithASentence)
   fs::resize_file(file, kNpyHead);
   EXPECT_EXIT(
       {
-        EndWhenMappedFilesAreCut();
+        ExitOnTruncatedMapping();
         std::exit(mapped->Numbers<double>().back() > 0 ? 1 : 0);
       },
       ::testing::ExitedWithCode(3), "another program shortened a file of the run");

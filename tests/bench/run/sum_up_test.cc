@@ -46,14 +46,14 @@ ScenarioTable Filled(const Study& study) {
   return table;
 }
 
-TEST(SumUp, SaysTheSameForAnyNumberOfProcesses) {
+TEST(SummariseInParallel, SaysTheSameForAnyNumberOfProcesses) {
   const Study study = ManyConditions();
   const ScenarioTable table = Filled(study);
   const std::string alone = *WriteJson(EncodeSummaries({Summarise(study, table, 1)}));
   EXPECT_THAT(alone, HasSubstr("only_baseline"));
   for (const int jobs : {1, 2, 3}) {
     std::size_t told = 0;
-    const auto summary = SumUp(study, table, 1, jobs, [&](std::size_t done, std::size_t all) {
+    const auto summary = SummariseInParallel(study, table, 1, jobs, [&](std::size_t done, std::size_t all) {
       EXPECT_EQ(all, 80u);
       EXPECT_GE(done, told);
       told = done;

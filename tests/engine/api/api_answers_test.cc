@@ -91,7 +91,7 @@ TEST(ApiCapture, RecoversThePersonThatTheEngineRecovers) {
   }
   for (const double smooth_hz : {0.0, 4.0}) {
     const CapturedMotion captured = Capture(cameras, seen, {.rate_hz = 15, .smooth_hz = smooth_hz});
-    RecoverPersonOptions options = UsualRecovery(15, 1280);
+    RecoverPersonOptions options = DefaultRecovery(15, 1280);
     options.cutoff_hz = smooth_hz;
     ASSERT_OK(wanted, RecoverPerson(matrices, straight, options));
     ASSERT_EQ(captured.motion.poses.size(), 30u);

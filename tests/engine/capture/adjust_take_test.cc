@@ -48,7 +48,7 @@ struct FilmedTake {
 
   explicit FilmedTake(std::vector<BodyPose> filmed) : poses(std::move(filmed)), marks(ExactMarks(poses, cameras)) {}
   MeasureInputs pictures() const { return {.cameras = cameras, .marks = marks}; }
-  std::vector<OptionalJoints> Start() const { return BridgeJoints(MeasureJoints(pictures())); }
+  std::vector<OptionalJoints> Start() const { return InterpolateJoints(MeasureJoints(pictures())); }
 };
 
 TEST(AdjustTake, GivesPosesOfPaperBsBodyBackFromExactMarks) {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "engine/capture/bridge_gaps.h"
 #include "engine/capture/calibrate_cameras.h"
+#include "engine/capture/interpolate_gaps.h"
 #include "engine/capture/measure_joints.h"
 #include "engine/capture/recover_frames.h"
 #include "tests/engine/capture/marked_body.h"
@@ -71,9 +71,9 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
     const auto frames = MeasureFrames({.cameras = cameras, .marks = marks}, measure);
     const BridgeOptions bridge =
         k % 2 ? BridgeOptions{.max_gap = 1, .mark_error_px = 6, .turn_per_frame = 0.2} : BridgeOptions();
-    const auto seen = BridgeGaps(frames, bridge);
+    const auto seen = InterpolateGaps(frames, bridge);
     for (const auto& observation : seen) AddSeen(print, observation);
-    AddSeen(print, BridgeLast(std::span(frames).first(7), bridge));
+    AddSeen(print, ExtrapolateLast(std::span(frames).first(7), bridge));
     const CaptureBody body = k < 4 ? PaperBody({}) : FittedBody(JointedRestBody()).value();
     RecoverOptions options{.solver = FindIkSolver(k % 3 ? "damped-least-squares" : "ccd"), .ik = {}};
     if (k % 2) options.ik.max_iterations = 3;
@@ -89,7 +89,7 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
       AddFrame(print, frame);
     for (const auto& frame : RecoverFrames({.body = body, .seen = seen, .known_poses = known}, options))
       AddFrame(print, frame);
-    for (const auto& pose : ToClip(body, HoldFrames(found), 30, "held").frames) {
+    for (const auto& pose : ToClip(body, RepeatLastPose(found), 30, "held").frames) {
       for (const LocalTransform& joint : pose) print.Add(joint.translation).Add(joint.rotation);
     }
   }

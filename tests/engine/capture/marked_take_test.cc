@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "engine/capture/bridge_gaps.h"
 #include "engine/capture/calibrate_cameras.h"
+#include "engine/capture/interpolate_gaps.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/capture/recover_frames.h"
 #include "tests/engine/capture/marked_body.h"
@@ -39,7 +39,7 @@ struct Stages {
   CapturedMotion Run(const MeasureInputs& pictures, const CaptureBody& body,
                      const std::vector<bool>& marked = {}) const {
     CapturedMotion motion{.measured = MeasureFrames(pictures, measure)};
-    motion.seen = BridgeGaps(motion.measured, bridge);
+    motion.seen = InterpolateGaps(motion.measured, bridge);
     motion.frames = RecoverFrames({.body = body, .seen = motion.seen, .marked = marked}, recover);
     return motion;
   }
@@ -64,7 +64,7 @@ TEST(MarkedTake, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
     stages.recover.solver = FindIkSolver("damped-least-squares");
     const CapturedMotion motion = stages.Run({.cameras = *cameras, .marks = marks}, body);
     ASSERT_EQ(motion.frames.size(), truth.size());
-    const Clip clip = ToClip(body, HoldFrames(motion.frames), kJudgedRateHz, "dance");
+    const Clip clip = ToClip(body, RepeatLastPose(motion.frames), kJudgedRateHz, "dance");
 
     ASSERT_EQ(clip.frames.size(), truth.size());
     const int head = clip.skeleton.Find("Head");

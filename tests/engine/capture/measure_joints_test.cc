@@ -74,7 +74,7 @@ TEST(MeasureJoints, FindsEveryJointOfExactMarks) {
       if (!IsMarkedRole(role)) continue;
       EXPECT_LT(glm::distance(measured[k].joints[Index(role)].position, poses[k][role]), 1e-9) << RoleName(role);
     }
-    ASSERT_OK(pose, CompleteJoints(BridgeJoints(measured)[k], ModelPose()));
+    ASSERT_OK(pose, CompleteJoints(InterpolateJoints(measured)[k], ModelPose()));
     for (const Role role : AllRoles()) EXPECT_LT(glm::distance((*pose)[role], poses[k][role]), 1e-9) << RoleName(role);
   }
 }
@@ -124,7 +124,7 @@ TEST(MeasureJoints, PutsAJointThatOnePictureShowsOnItsLineOfSight) {
             1e-6);
   EXPECT_LT(glm::distance(elbow.position, poses[2][Role::kRightElbow]), 0.01);
   EXPECT_EQ(measured[3].joints[Index(Role::kLeftKnee)].information, glm::dmat3(0));
-  for (const auto& joints : {BridgeJoints(measured), SmoothJoints(measured, 30)}) {
+  for (const auto& joints : {InterpolateJoints(measured), SmoothJoints(measured, 30)}) {
     EXPECT_LT(glm::distance(*joints[3][Index(Role::kLeftKnee)], poses[3][Role::kLeftKnee]), 0.01);
   }
 }

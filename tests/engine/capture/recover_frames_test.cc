@@ -26,18 +26,18 @@ TEST(RecoverFrames, GivesAPoseOfTheModelBackAndHoldsItWhereNothingIsSeen) {
   EXPECT_FALSE(recovered[1]);
   EXPECT_LT(WorstJointDistance(recovered[0]->fixed, pose), 1e-3);
   EXPECT_LT(WorstJointDistance(recovered[0]->pose, pose), 0.02);
-  const auto held = HoldFrames(recovered);
+  const auto held = RepeatLastPose(recovered);
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[1].pose[Role::kHead], held[0].pose[Role::kHead]);
   EXPECT_EQ(held[0].errors.size(), 4u);
   EXPECT_TRUE(held[1].errors.empty()) << "a held frame met no target";
 }
 
-TEST(HoldFrames, ShowsTheFirstSkeletonBeforeItAndTheLastOneAfterIt) {
+TEST(RepeatLastPose, ShowsTheFirstSkeletonBeforeItAndTheLastOneAfterIt) {
   const std::vector<std::optional<LimbObservation>> seen = {std::nullopt, Observe(ModelPose(0)), std::nullopt,
                                                             Observe(ModelPose(1)), std::nullopt};
   const auto recovered = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("ccd"));
-  const auto held = HoldFrames(recovered);
+  const auto held = RepeatLastPose(recovered);
   const int shown[] = {1, 1, 1, 3, 3};
   for (int k = 0; k < 5; ++k) EXPECT_EQ(held[k].pose.joints, recovered[shown[k]]->pose.joints) << k;
 }
@@ -68,7 +68,7 @@ TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame
   EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
 }
 
-/// Returns the observation without one end or one limb, marked as BridgeGaps expects.
+/// Returns the observation without one end or one limb, marked as InterpolateGaps expects.
 LimbObservation Lacking(LimbObservation seen, std::optional<Role> end, std::optional<Role> limb) {
   if (end) {
     seen.ends[*end] = glm::dvec3(0);
@@ -160,7 +160,7 @@ std::vector<std::optional<RecoveredFrame>> Live(const CaptureBody& body,
 
 std::vector<std::optional<RecoveredFrame>> Whole(const CaptureBody& body,
                                                  const std::vector<FrameMeasurement>& measured) {
-  const auto seen = BridgeGaps(measured);
+  const auto seen = InterpolateGaps(measured);
   return RecoverFrames({.body = body, .seen = seen}, Options());
 }
 
@@ -183,13 +183,13 @@ TEST(LiveRecovery, IsNotChangedByLaterFramesAsTheWholeTakeIs) {
   EXPECT_NE(whole[5]->pose.joints, whole_other[5]->pose.joints) << "the control: it looks ahead";
 }
 
-TEST(BridgeLast, IsWhatGapsAreBridgedWithWhenNothingFollowsHoweverFewFramesAreKept) {
+TEST(ExtrapolateLast, IsWhatGapsAreBridgedWithWhenNothingFollowsHoweverFewFramesAreKept) {
   auto measured = Measured(0.1, {3, 4, 9, 10, 11});
   const BridgeOptions options{.max_gap = 3};
   for (std::size_t count = 1; count <= measured.size(); ++count) {
     const std::span<const FrameMeasurement> first(measured.data(), count);
-    const auto last = BridgeLast(first, options), whole = BridgeGaps(first, options).back();
-    const auto kept = BridgeLast(first.last(std::min<std::size_t>(count, 4)), options);
+    const auto last = ExtrapolateLast(first, options), whole = InterpolateGaps(first, options).back();
+    const auto kept = ExtrapolateLast(first.last(std::min<std::size_t>(count, 4)), options);
     ASSERT_EQ(last.has_value(), whole.has_value());
     if (!last) continue;
     EXPECT_EQ(last->ends.joints, whole->ends.joints) << count;

@@ -32,7 +32,7 @@ struct WalkedTake {
       }
     }
     if (change) change(people);
-    person = *RecoverPerson(cameras, people, UsualRecovery(kTakeRate, 1280));
+    person = *RecoverPerson(cameras, people, DefaultRecovery(kTakeRate, 1280));
   }
 
   bool Adjust() { return AdjustPerson(cameras, person.people[0], {.rate_hz = kTakeRate}, person); }

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/keypoints/mend_people.h"
+#include "engine/keypoints/correct_people.h"
 #include "tests/engine/keypoints/walkers.h"
 #include "tests/support/random_clip.h"
 

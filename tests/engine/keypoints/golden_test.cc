@@ -33,7 +33,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
   for (int k = 0; k < 5; ++k) {
     const double rate_hz = k == 2 ? 50 : 30;
     const Crowd crowd(dice, k == 1 ? 21 : 14 + k, 2 + k, 0.03, rate_hz);
-    RecoverPersonOptions options = UsualRecovery(rate_hz, 1280);
+    RecoverPersonOptions options = DefaultRecovery(rate_hz, 1280);
     options.mends = k % 2 == 0;
     options.match.may_be_swapped = true;
     options.min_outlier_px = 4;

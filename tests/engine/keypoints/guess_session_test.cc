@@ -89,13 +89,13 @@ std::vector<PictureOfFilm> SideBySide() {
   return films;
 }
 
-TEST(MissOfPictures, IsTheSampsonDistanceOfAPairAsAShareOfTheHeight) {
+TEST(EpipolarDistanceOf, IsTheSampsonDistanceOfAPairAsAShareOfTheHeight) {
   std::vector<PictureOfFilm> films = SideBySide();
-  EXPECT_LT(MissOfPictures(films, 0.1), 1e-12);
+  EXPECT_LT(EpipolarDistanceOf(films, 0.1), 1e-12);
   ChangePixels(films[1], [](glm::dvec2 p) { return p + glm::dvec2(5, 8); });
   const double height = std::max(HeightPx(films[0].people[0][0]), HeightPx(films[1].people[0][0]));
-  EXPECT_NEAR(MissOfPictures(films, 0.1), 4 / height, 1e-9) << "8 px too low are 4 px off in each picture";
-  EXPECT_EQ(MissOfPictures(films, 0.9), 1) << "nobody is as sure as that: nothing can be said";
+  EXPECT_NEAR(EpipolarDistanceOf(films, 0.1), 4 / height, 1e-9) << "8 px too low are 4 px off in each picture";
+  EXPECT_EQ(EpipolarDistanceOf(films, 0.9), 1) << "nobody is as sure as that: nothing can be said";
 }
 
 TEST(GuessPictures, LeavesPicturesThatAreAsSaid) {

@@ -197,12 +197,12 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
               HasSubstr("there is no person 3; number of people seen by two or more cameras: 2"));
 }
 
-TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {
+TEST(InterpolatePoints, FillsShortGapsStraightAndNoLongOnes) {
   std::vector<LandmarkPositions> frames(12);
   frames[0][0] = glm::dvec3(0);
   frames[4][0] = glm::dvec3(4, 8, 0);
   frames[11][0] = glm::dvec3(1);
-  BridgePoints(frames, 3);
+  InterpolatePoints(frames, 3);
   ASSERT_TRUE(frames[1][0]);
   EXPECT_LT(glm::distance(*frames[1][0], glm::dvec3(1, 2, 0)), 1e-12);
   EXPECT_FALSE(frames[7][0]) << "six frames are more than three";
@@ -225,12 +225,12 @@ TEST(SmoothPoints, HalvesThePowerAtTheCutoffAndKeepsWhatIsSlow) {
   EXPECT_LT(gain(20), 0.05);
 }
 
-TEST(BridgePoints, BridgesAGapOfJustSoManyFrames) {
+TEST(InterpolatePoints, BridgesAGapOfJustSoManyFrames) {
   for (const std::size_t longest : {2u, 3u}) {
     std::vector<LandmarkPositions> frames(5);
     frames[0][3] = glm::dvec3(0);
     frames[4][3] = glm::dvec3(8);
-    BridgePoints(frames, longest);
+    InterpolatePoints(frames, longest);
     EXPECT_EQ(frames[1][3].has_value(), longest == 3);
   }
 }
@@ -275,13 +275,13 @@ TEST(JointsOf, MakesUpHandsHeadAndFeetWhereNoLandmarkTellsThem) {
   EXPECT_FALSE(joint(Role::kHipCentre) || joint(Role::kHead) || joint(Role::kRightFoot)) << "nothing tells the front";
 }
 
-TEST(UsualRecovery, FollowsTheRateAndThePictures) {
-  const RecoverPersonOptions options = UsualRecovery(60, 1920);
+TEST(DefaultRecovery, FollowsTheRateAndThePictures) {
+  const RecoverPersonOptions options = DefaultRecovery(60, 1920);
   EXPECT_EQ(options.rate_hz, 60);
   EXPECT_EQ(options.match.follow.max_absence, 30) << "half a second";
   EXPECT_EQ(options.match.follow.max_return, 180) << "three seconds";
   EXPECT_DOUBLE_EQ(options.triangulate.robust.outlier_px, 57.6) << "3 % of the longer side";
-  EXPECT_EQ(UsualRecovery(1, 640).match.follow.max_absence, 1);
+  EXPECT_EQ(DefaultRecovery(1, 640).match.follow.max_absence, 1);
 }
 
 TEST(RecoverPerson, ShowsTheLastPoseWhereNobodyIsSeenAndTheFirstBeforeThat) {
@@ -305,7 +305,7 @@ TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
   const std::vector<Camera> cameras = FourCameras();
   auto people = OneWalker(cameras, 0.5);
   for (std::size_t k = 10; k < 30; ++k) people[2][k][0] = WithSidesSwapped(people[2][k][0]);
-  RecoverPersonOptions options = UsualRecovery(kRate, 1280);
+  RecoverPersonOptions options = DefaultRecovery(kRate, 1280);
   options.mends = true;
   options.min_outlier_px = 3;
   ASSERT_OK(mended, Recover(cameras, people, options));

@@ -56,7 +56,7 @@ TEST(GuessSession, SaysWhatItSaid) {
     if (k == 6) films[1].fit = {}, films[2].is_sized = noise_px > 1;
     if (k == 8) std::swap(films[0].camera, films[2].camera);
     if (k == 9) films[1].camera.intrinsics.fx *= 0.93, films[1].camera.intrinsics.fy *= 0.93;
-    lines.push_back(fmt::format("session {}, off by {:.4f} px", k, MissOfPictures(films, 0.3)));
+    lines.push_back(fmt::format("session {}, off by {:.4f} px", k, EpipolarDistanceOf(films, 0.3)));
     for (const PictureGuess& guess : GuessPictures(films, 0.1)) {
       if (!guess.told.empty()) lines.push_back("  picture: " + guess.told);
     }

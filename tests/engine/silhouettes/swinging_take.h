@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/silhouettes/fit_silhouettes.h"
-#include "engine/silhouettes/moment_fitter.h"
+#include "engine/silhouettes/instant_fitter.h"
 #include "engine/silhouettes/silhouette.h"
 #include "engine/silhouettes/turns.h"
 #include "tests/engine/silhouettes/capsule_picture.h"

@@ -24,7 +24,7 @@ BodyPose ArmRaised(double degrees) {
   return pose;
 }
 
-TEST(Stray, OfOneLimbIsItsAngle) {
+TEST(PerformanceDeviation, OfOneLimbIsItsAngle) {
   const auto meant = [](double) { return ArmRaised(30); };
   EXPECT_NEAR(LimbStrayDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
   EXPECT_EQ(LimbStrayDeg(meant, meant), 0);
@@ -34,7 +34,7 @@ TEST(Stray, OfOneLimbIsItsAngle) {
   EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3), 0.02);
 }
 
-TEST(Stray, OfTheClockIsCountedInBeats) {
+TEST(PerformanceDeviation, OfTheClockIsCountedInBeats) {
   const auto even = [](double due) { return due; };
   EXPECT_EQ(TimingStrayBeats(even, even, 4), 0);
   // One beat of four late: the lag rises to 1 beat in the first beat, and stays 1 in the others. √((1/3 + 3) / 4).
@@ -47,7 +47,7 @@ TEST(Stray, OfTheClockIsCountedInBeats) {
               0.8 / std::sqrt(2), 1e-2);
 }
 
-TEST(Stray, DecidesWhatIsRightGreyAndWrong) {
+TEST(PerformanceDeviation, DecidesWhatIsRightGreyAndWrong) {
   const StrayLimits limits{.right = {10, 0.2}, .wrong = {20, 0.4}};
   EXPECT_EQ(TruthOf({10, 0.2}, limits), Truth::kRight);
   EXPECT_EQ(TruthOf({10.1, 0.2}, limits), Truth::kGrey);
@@ -58,13 +58,13 @@ TEST(Stray, DecidesWhatIsRightGreyAndWrong) {
   EXPECT_EQ(TruthOf({}, limits), Truth::kRight);
 }
 
-TEST(Stray, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
+TEST(PerformanceDeviation, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
   for (People people : {People::kToddler, People::kAdult}) {
     const Person person = DrawPerson({3, "stray", 1}, people);
     for (const Move& move : AllMoves()) {
       const Style style(person, move);
       const Rendition rendition(style, {.tempo = 0.7, .unevenness = 0.2, .ways = 9}, {});
-      const Stray stray = rendition.Strays();
+      const PerformanceDeviation stray = rendition.Deviation();
       EXPECT_EQ(stray.limb_deg, 0) << move.name;
       EXPECT_EQ(stray.timing_beats, 0) << move.name;
     }
@@ -72,9 +72,9 @@ TEST(Stray, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
 }
 
 /// Returns a number that grows with `limb_deg` and with `timing_beats`.
-double Badness(const Stray& stray) { return stray.limb_deg / 25 + stray.timing_beats / 0.5; }
+double Badness(const PerformanceDeviation& stray) { return stray.limb_deg / 25 + stray.timing_beats / 0.5; }
 
-TEST(Stray, GrowsWithTheSeverityOfEveryFault) {
+TEST(PerformanceDeviation, GrowsWithTheSeverityOfEveryFault) {
   const Person person = DrawPerson({3, "stray", 2}, People::kMixed);
   std::map<Fault, int> shown;
   for (const Move& move : AllMoves()) {
@@ -87,14 +87,14 @@ TEST(Stray, GrowsWithTheSeverityOfEveryFault) {
         double before = 0;
         for (double severity : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
           const Rendition rendition(style, {}, {{fault, severity, choice}}, &other);
-          const double badness = Badness(rendition.Strays());
+          const double badness = Badness(rendition.Deviation());
           if (severity == 0) {
             EXPECT_NEAR(badness, 0, 1e-9) << move.name << " " << FaultName(fault);
           }
           EXPECT_GE(badness, before - 1e-3) << move.name << " " << FaultName(fault) << " " << severity;
           before = badness;
         }
-        EXPECT_NE(TruthOf(Rendition(style, {}, {{fault, 1, choice}}, &other).Strays()), Truth::kRight)
+        EXPECT_NE(TruthOf(Rendition(style, {}, {{fault, 1, choice}}, &other).Deviation()), Truth::kRight)
             << move.name << " " << FaultName(fault);
       }
     }

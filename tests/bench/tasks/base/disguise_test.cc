@@ -14,11 +14,11 @@ using enum Role;
 
 WorldKey SecretWorld(std::uint64_t number) { return {Seed::Secret({number, 2, 3, 4}), "disguise", 0}; }
 
-TEST(WanderingDice, HaveMeanZeroAndDeviationOneAndNoJumps) {
+TEST(SmoothRandomFunction, HaveMeanZeroAndDeviationOneAndNoJumps) {
   double sum = 0, squares = 0, fastest = 0;
   int count = 0;
   for (std::uint64_t world = 0; world < 400; ++world) {
-    WanderingDice dice(SecretWorld(world), "test");
+    SmoothRandomFunction dice(SecretWorld(world), "test");
     for (int k = 0; k < 150; ++k, ++count) {
       const double value = dice.At(k / 30.0);
       sum += value;

@@ -1,4 +1,4 @@
-#include "engine/keypoints/mend_people.h"
+#include "engine/keypoints/correct_people.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ struct MendedTake {
     truth = person;
   }
 
-  std::vector<Mend> Run() { return MendPerson(cameras, people, 0.1, person); }
+  std::vector<PersonCorrection> Run() { return CorrectPerson(cameras, people, 0.1, person); }
 
   /// Returns the number of frames and cameras in which the person's keypoints are wrong.
   std::size_t Wrong() const {
@@ -100,7 +100,7 @@ TEST(OtherSide, ExchangesNamesThatBeginWithASide) {
   }
 }
 
-TEST(MendPerson, LeavesWhatIsRightAlone) {
+TEST(CorrectPerson, LeavesWhatIsRightAlone) {
   for (const std::size_t cameras : {2u, 3u, 4u}) {
     for (const double sigma_px : {0.0, 4.0}) {
       MendedTake take(cameras, sigma_px);
@@ -110,8 +110,8 @@ TEST(MendPerson, LeavesWhatIsRightAlone) {
   }
 }
 
-TEST(MendPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
-  using enum Mend::Kind;
+TEST(CorrectPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
+  using enum PersonCorrection::Kind;
   for (const auto& [legs, arms, kind] :
        {std::tuple(true, true, kSwappedSides), {true, false, kSwappedLegs}, {false, true, kSwappedArms}}) {
     for (const std::size_t cameras : {2u, 4u}) {  // with two cameras, only the facing shows which one was wrong
@@ -132,21 +132,21 @@ TEST(MendPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
   }
 }
 
-TEST(MendPerson, ToesTellWhereAllCamerasExchangedThroughout) {
+TEST(CorrectPerson, ToesTellWhereAllCamerasExchangedThroughout) {
   MendedTake take(3);
   for (auto& camera : take.person.seen) {
     for (auto& seen : camera) seen = Exchanged(*seen, true, true);
   }
   const auto mends = take.Run();
   ASSERT_THAT(mends, SizeIs(3));
-  for (const Mend& mend : mends) {
-    EXPECT_EQ(mend.kind, Mend::Kind::kSwappedSides);
+  for (const PersonCorrection& mend : mends) {
+    EXPECT_EQ(mend.kind, PersonCorrection::Kind::kSwappedSides);
     EXPECT_EQ(mend.frames, FramesFrom(0, kMendedFrames));
   }
   EXPECT_EQ(take.Wrong(), 0u);
 }
 
-TEST(MendPerson, ToesOfAKneelerPointBackwards) {
+TEST(CorrectPerson, ToesOfAKneelerPointBackwards) {
   // The shanks lie on the floor. The feet are stretched to 0.2 or 0.7 radians from the shanks' direction.
   for (const double foot : {0.2, 0.7}) {
     const auto kneeler = [foot](double x, double z, double seconds) {
@@ -165,20 +165,20 @@ TEST(MendPerson, ToesOfAKneelerPointBackwards) {
   }
 }
 
-TEST(MendPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
+TEST(CorrectPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
   for (const std::size_t camera : {0u, 1u}) {
     MendedTake take(4);
     for (std::size_t k = 10; k < 20; ++k) take.person.seen[camera][k] = take.people[camera][k][0];
     const auto mends = take.Run();
     ASSERT_THAT(mends, SizeIs(1));
-    EXPECT_EQ(mends[0].kind, Mend::Kind::kOtherPerson);
+    EXPECT_EQ(mends[0].kind, PersonCorrection::Kind::kOtherPerson);
     EXPECT_EQ(mends[0].camera, camera);
     EXPECT_EQ(mends[0].frames, FramesFrom(10, 20));
     EXPECT_EQ(take.Wrong(), 0u);
   }
 }
 
-TEST(MendPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
+TEST(CorrectPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
   for (const bool is_first : {true, false}) {
     MendedTake take(4);
     for (std::size_t k = 10; k < 20; ++k) {
@@ -194,7 +194,7 @@ TEST(MendPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
   }
 }
 
-TEST(MendPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
+TEST(CorrectPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
   for (const std::size_t cameras : {2u, 4u}) {
     MendedTake take(cameras);
     for (std::size_t k = 10; k < 15; ++k) {
@@ -209,7 +209,7 @@ TEST(MendPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
       continue;
     }
     ASSERT_THAT(mends, SizeIs(1));
-    EXPECT_EQ(mends[0].kind, Mend::Kind::kNobody);
+    EXPECT_EQ(mends[0].kind, PersonCorrection::Kind::kNobody);
     EXPECT_EQ(mends[0].camera, 1u);
     EXPECT_EQ(mends[0].frames, FramesFrom(10, 15));
     EXPECT_EQ(take.Wrong(), 0u);

@@ -1,4 +1,4 @@
-#include "engine/keypoints/mend_people.h"
+#include "engine/keypoints/correct_people.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +61,7 @@ class Mender {
     for (auto& group : flips_) group.assign(cameras.size(), std::vector<bool>(frames_));
   }
 
-  std::vector<Mend> Run() {
+  std::vector<PersonCorrection> Run() {
     FindPersonAgain();
     scale_px_ = ScalePx();
     for (std::size_t group = 0; group < kGroups; ++group) SwapBack(group);
@@ -107,7 +107,7 @@ class Mender {
   }
 
   void FindPersonAgain() {
-    std::vector<Mend> found(cameras_.size()), nobody(cameras_.size());
+    std::vector<PersonCorrection> found(cameras_.size()), nobody(cameras_.size());
     constexpr double kOff = 0.05, kBetter = 1.0 / 3;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       for (std::size_t round = 0; round < cameras_.size(); ++round) {
@@ -149,11 +149,11 @@ class Mender {
     // Report the corrections by camera.
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       for (auto* list : {&found, &nobody}) {
-        Mend& mend = (*list)[c];
+        PersonCorrection& mend = (*list)[c];
         mend.frames.erase(std::unique(mend.frames.begin(), mend.frames.end()), mend.frames.end());
         if (mend.frames.empty()) continue;
         mend.camera = c;
-        mend.kind = list == &found ? Mend::Kind::kOtherPerson : Mend::Kind::kNobody;
+        mend.kind = list == &found ? PersonCorrection::Kind::kOtherPerson : PersonCorrection::Kind::kNobody;
         mends_.push_back(mend);
       }
     }
@@ -354,13 +354,13 @@ class Mender {
   // Reports each camera's frames with arms and legs swapped, with only arms swapped, and with only legs swapped.
   void ReportSwaps() {
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
-      Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},
-          legs{Mend::Kind::kSwappedLegs, c, {}};
+      PersonCorrection both{PersonCorrection::Kind::kSwappedSides, c, {}},
+          arms{PersonCorrection::Kind::kSwappedArms, c, {}}, legs{PersonCorrection::Kind::kSwappedLegs, c, {}};
       for (std::size_t frame = 0; frame < frames_; ++frame) {
         const bool arm = flips_[0][c][frame], leg = flips_[1][c][frame];
         if (arm || leg) (arm && leg ? both : arm ? arms : legs).frames.push_back(frame);
       }
-      for (Mend* mend : {&both, &arms, &legs}) {
+      for (PersonCorrection* mend : {&both, &arms, &legs}) {
         if (!mend->frames.empty()) mends_.push_back(std::move(*mend));
       }
     }
@@ -374,7 +374,7 @@ class Mender {
   std::size_t frames_ = 0;
   double scale_px_ = 1;
   std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< true if swapped; [group][camera][frame]
-  std::vector<Mend> mends_;
+  std::vector<PersonCorrection> mends_;
 };
 
 }  // namespace
@@ -385,8 +385,9 @@ SeenPerson WithSidesSwapped(const SeenPerson& person) {
   return swapped;
 }
 
-std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                             double min_confidence, MatchedPerson& person) {
+std::vector<PersonCorrection> CorrectPerson(std::span<const ProjectionMatrix> cameras,
+                                            std::span<const SeenPeople> people, double min_confidence,
+                                            MatchedPerson& person) {
   return Mender(cameras, people, min_confidence, person).Run();
 }
 

@@ -11,24 +11,24 @@
 namespace etude {
 
 /// An answer (method against the scenario's baseline method) whose verdict is worse than in the baseline snapshot.
-struct FallenAnswer {
+struct WorsenedAnswer {
   std::string scenario, condition;  ///< the condition as a CompactLabel
   std::string method, baseline;
   Verdict before = Verdict::kUndecided, after = Verdict::kUndecided;  ///< verdict on the worlds of each snapshot
 
   /// Returns true if the verdict changed from "better" to "worse". Only such a change is a regression: near a practical
   /// threshold, a tiny change of the values turns "better" into "no difference".
-  bool Flips() const { return before == Verdict::kBetter && after == Verdict::kWorse; }
+  bool IsReversed() const { return before == Verdict::kBetter && after == Verdict::kWorse; }
 };
 
 /// Returns the answers whose verdict fell from "better" to "no difference" or "worse", or from "no difference" to
 /// "worse". An answer may fall although neither method's values moved by a practical threshold: the method became a
 /// little worse, and its baseline method a little better. An answer that is undecided in either snapshot has not
 /// fallen.
-std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
-                                            std::span<const MetricMove> moves);
+std::vector<WorsenedAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
+                                              std::span<const MetricMove> moves);
 
 /// Describes a fallen answer: "ik-weights, joint_noise_deg=5: adaptive against fixed: better before, now worse".
-std::string DescribeFallen(const FallenAnswer& one);
+std::string DescribeFallen(const WorsenedAnswer& one);
 
 }  // namespace etude

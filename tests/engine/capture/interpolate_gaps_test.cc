@@ -1,11 +1,11 @@
-#include "engine/base/directions.h"
-#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/interpolate_gaps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/directions.h"
 #include "tests/engine/capture/marked_body.h"
 
 namespace etude {
@@ -19,7 +19,7 @@ FrameMeasurement WholeMeasurement() {
   return frame;
 }
 
-TEST(BridgeGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
+TEST(InterpolateGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
   const FrameMeasurement first = WholeMeasurement();
   FrameMeasurement last = first;
   last.directions[Index(Role::kHead)] = glm::dvec3(1, 0, 0);
@@ -29,7 +29,7 @@ TEST(BridgeGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
   frames[0].directions[Index(Role::kHead)] = start;
   frames[3] = last;
   *frames[3].ends[Index(Role::kLeftHand)] += glm::dvec3(0.3, 0, 0);
-  const auto bridged = BridgeGaps(frames, {.max_gap = 3});
+  const auto bridged = InterpolateGaps(frames, {.max_gap = 3});
   for (int k = 0; k < 4; ++k) {
     ASSERT_TRUE(bridged[k]) << k;
     const glm::dvec3 head = bridged[k]->directions[Index(Role::kHead)];
@@ -40,30 +40,30 @@ TEST(BridgeGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
   }
 }
 
-TEST(BridgeGaps, TakesTheNearerOfTwoOppositeDirections) {
+TEST(InterpolateGaps, TakesTheNearerOfTwoOppositeDirections) {
   std::vector<FrameMeasurement> frames(6);
   frames[0] = frames[5] = WholeMeasurement();
   frames[0].directions[Index(Role::kHead)] = glm::dvec3(0, 1, 0);
   frames[5].directions[Index(Role::kHead)] = glm::dvec3(0, -1, 0);
-  const auto bridged = BridgeGaps(frames);
+  const auto bridged = InterpolateGaps(frames);
   for (int k = 0; k < 6; ++k) EXPECT_EQ(bridged[k]->directions[Index(Role::kHead)].y, k < 3 ? 1 : -1) << k;
 }
 
-TEST(BridgeGaps, HoldsTheNearestValueAndGivesUpBeyondTheLongestGap) {
+TEST(InterpolateGaps, HoldsTheNearestValueAndGivesUpBeyondTheLongestGap) {
   std::vector<FrameMeasurement> frames(10);
   frames[4] = WholeMeasurement();
-  const auto bridged = BridgeGaps(frames, {.max_gap = 2});
+  const auto bridged = InterpolateGaps(frames, {.max_gap = 2});
   for (int k = 0; k < 10; ++k) EXPECT_EQ(bridged[k].has_value(), k >= 2 && k <= 6) << k;
   EXPECT_EQ(bridged[2]->ends[Role::kHead], *frames[4].ends[Index(Role::kHead)]);
 }
 
-TEST(BridgeGaps, SaysWhatAFrameLacksAndKeepsTheRest) {
+TEST(InterpolateGaps, SaysWhatAFrameLacksAndKeepsTheRest) {
   std::vector<FrameMeasurement> frames(3, WholeMeasurement());
   for (FrameMeasurement& frame : frames) {
     frame.directions[Index(Role::kLeftKnee)].reset();
     frame.ends[Index(Role::kHead)].reset();
   }
-  for (const auto& frame : BridgeGaps(frames)) {
+  for (const auto& frame : InterpolateGaps(frames)) {
     ASSERT_TRUE(frame);
     for (const StrokeMark& mark : StrokeMarks()) {
       EXPECT_EQ(frame->lacks_direction[Index(mark.to)], mark.to == Role::kLeftKnee) << RoleName(mark.to);
@@ -75,7 +75,7 @@ TEST(BridgeGaps, SaysWhatAFrameLacksAndKeepsTheRest) {
   }
 }
 
-TEST(BridgeGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
+TEST(InterpolateGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
   std::vector<FrameMeasurement> frames(3, WholeMeasurement());
   const std::size_t hand = Index(Role::kLeftHand);
   frames[0].ends[hand] = glm::dvec3(0, 1, 0);
@@ -83,11 +83,11 @@ TEST(BridgeGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
   frames[1].ends[hand].reset();
   frames[1].sight_lines[hand] = SightLine{{0, 1.5, 4}, glm::normalize(glm::dvec3(0, -0.5, -4))};
   // The neighbours' middle is (0.1, 1, 0); the line passes through (0, 1, 0) and is normal to X.
-  EXPECT_LT(glm::distance(BridgeGaps(frames)[1]->ends[Role::kLeftHand], {0, 1, 0}), 1e-12);
+  EXPECT_LT(glm::distance(InterpolateGaps(frames)[1]->ends[Role::kLeftHand], {0, 1, 0}), 1e-12);
 }
 
 // One plane: the minimiser of (N·d)²/ε² + |d − b|²/τ² is b − N (N·b) / (1 + ε²/τ²), normalised.
-TEST(BridgeGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
+TEST(InterpolateGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
   const std::size_t head = Index(Role::kHead);
   const BridgeOptions options{.mark_error_px = 2, .turn_per_frame = Radians(3)};
   for (const int gap : {1, 4}) {
@@ -106,14 +106,14 @@ TEST(BridgeGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
       const glm::dvec3 b(0, 1, 0);
       const glm::dvec3 expected =
           glm::normalize(b - normal * glm::dot(normal, b) / (1 + error * error / (turn * turn)));
-      const glm::dvec3 found = BridgeGaps(frames, options)[static_cast<std::size_t>(gap)]->directions[head];
+      const glm::dvec3 found = InterpolateGaps(frames, options)[static_cast<std::size_t>(gap)]->directions[head];
       EXPECT_LT(glm::distance(found, expected), 1e-12) << gap << " " << length_px;
     }
   }
 }
 
 // Two planes a degree apart determine the angle across them; the neighbours determine the rest.
-TEST(BridgeGaps, LetsNearlyParallelPlanesTellWhatTheyCan) {
+TEST(InterpolateGaps, LetsNearlyParallelPlanesTellWhatTheyCan) {
   const std::size_t head = Index(Role::kHead);
   std::vector<FrameMeasurement> frames(3, WholeMeasurement());
   const glm::dvec3 before = glm::normalize(glm::dvec3(0.1, 1, 0.1));
@@ -123,29 +123,29 @@ TEST(BridgeGaps, LetsNearlyParallelPlanesTellWhatTheyCan) {
     return StrokePlane{glm::normalize(normal), {0, 0, -1}, glm::normalize(glm::dvec3(0, 0.1, -1)), 60};
   };
   frames[1].planes[head] = {plane({1, 0, 0}), plane({1, 0, std::tan(Radians(1))})};
-  const glm::dvec3 found = BridgeGaps(frames)[1]->directions[head];
+  const glm::dvec3 found = InterpolateGaps(frames)[1]->directions[head];
   EXPECT_LT(std::abs(found.x), 0.035) << "it was 0.1; the planes say 0, to ε = 3°/√2 against τ = 3°";
   EXPECT_NEAR(found.z / found.y, before.z / before.y, 0.01);
   EXPECT_NEAR(glm::length(found), 1, 1e-12);
 }
 
-TEST(BridgeGaps, TakesALimbThatNothingElseTellsOfForUnforeshortened) {
+TEST(InterpolateGaps, TakesALimbThatNothingElseTellsOfForUnforeshortened) {
   const std::size_t head = Index(Role::kHead);
   std::vector<FrameMeasurement> frames(1, WholeMeasurement());
   frames[0].directions[head].reset();
   const glm::dvec3 a = glm::normalize(glm::dvec3(0, -0.05, -1)), b = glm::normalize(glm::dvec3(0, 0.05, -1));
   frames[0].planes[head] = {{{1, 0, 0}, a, b, 60}};
-  EXPECT_LT(glm::distance(BridgeGaps(frames)[0]->directions[head], {0, 1, 0}), 1e-12);
+  EXPECT_LT(glm::distance(InterpolateGaps(frames)[0]->directions[head], {0, 1, 0}), 1e-12);
 }
 
-TEST(BridgeGaps, OneNearNeighbourIsEnoughAndHalfASecondTheDefault) {
+TEST(InterpolateGaps, OneNearNeighbourIsEnoughAndHalfASecondTheDefault) {
   std::vector<FrameMeasurement> frames(40);
   frames[0] = frames[39] = WholeMeasurement();
-  const auto bridged = BridgeGaps(frames);
+  const auto bridged = InterpolateGaps(frames);
   for (int k = 0; k < 40; ++k) EXPECT_EQ(bridged[k].has_value(), k <= 15 || k >= 24) << k;
 }
 
-TEST(BridgeGaps, OfNoFramesIsNone) { EXPECT_TRUE(BridgeGaps({}).empty()); }
+TEST(InterpolateGaps, OfNoFramesIsNone) { EXPECT_TRUE(InterpolateGaps({}).empty()); }
 
 }  // namespace
 }  // namespace etude

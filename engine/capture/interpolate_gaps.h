@@ -36,11 +36,12 @@ struct BridgeOptions {
 ///   not to be foreshortened: its direction is normal to the mean line of sight of its pictures.
 /// A quantity that is not seen in the frame and was not measured within `max_gap` frames is marked as lacking
 /// (`LimbObservation::lacks_end`); a frame that lacks everything is empty.
-std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
-                                                       const BridgeOptions& options = {});
+std::vector<std::optional<LimbObservation>> InterpolateGaps(std::span<const FrameMeasurement> frames,
+                                                            const BridgeOptions& options = {});
 
 /// Completes the last frame from the frames before it, as a live system must. Frames that are more than `max_gap`
 /// frames earlier have no effect.
-std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options = {});
+std::optional<LimbObservation> ExtrapolateLast(std::span<const FrameMeasurement> frames,
+                                               const BridgeOptions& options = {});
 
 }  // namespace etude

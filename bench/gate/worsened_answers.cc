@@ -1,4 +1,4 @@
-#include "bench/gate/fallen_answers.h"
+#include "bench/gate/worsened_answers.h"
 
 #include <fmt/core.h>
 
@@ -61,9 +61,9 @@ bool HasFallen(Verdict before, Verdict after) {
 
 }  // namespace
 
-std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
-                                            std::span<const MetricMove> moves) {
-  std::vector<FallenAnswer> fallen;
+std::vector<WorsenedAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
+                                              std::span<const MetricMove> moves) {
+  std::vector<WorsenedAnswer> fallen;
   for (const FinishedScenario& one : run.scenarios) {
     const std::string& name = one.study.scenario;
     const bool differs = std::ranges::any_of(
@@ -85,7 +85,7 @@ std::vector<FallenAnswer> FindFallenAnswers(const FinishedRun& run, const Snapsh
   return fallen;
 }
 
-std::string DescribeFallen(const FallenAnswer& one) {
+std::string DescribeFallen(const WorsenedAnswer& one) {
   return fmt::format("{}{}: {} against {}: {} before, now {}", one.scenario,
                      one.condition == "-" ? "" : ", " + one.condition, one.method, one.baseline,
                      VerdictName(one.before), VerdictName(one.after));

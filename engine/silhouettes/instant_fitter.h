@@ -60,10 +60,10 @@ struct TrackOptions {
 using MomentViews = std::vector<SilhouetteView>;
 
 /// Fits a body to one moment: by a search, from a known pose, or from the previous moments.
-class MomentFitter {
+class InstantFitter {
  public:
   /// `body` and `options` must outlive this object. The body's thickness may be changed between calls.
-  MomentFitter(const SilhouetteBody& body, const TrackOptions& options);
+  InstantFitter(const SilhouetteBody& body, const TrackOptions& options);
 
   /// Fits one moment from `start`. If `is_far`, a fit comes first whose loss has a wider reach. `prior` may be null.
   SilhouetteFit Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far);

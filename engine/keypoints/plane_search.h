@@ -8,11 +8,11 @@ namespace etude {
 
 /// Searches the plane for the point with the smallest loss. Keeps the best of all points tried, beginning with the
 /// origin. A point whose loss is nullopt is never taken.
-class LeastLoss2 {
+class PlaneSearch {
  public:
   using Loss = std::function<std::optional<double>(double x, double y)>;
 
-  LeastLoss2(Loss loss, double at_origin) : loss_of_(std::move(loss)), loss_(at_origin) {}
+  PlaneSearch(Loss loss, double at_origin) : loss_of_(std::move(loss)), loss_(at_origin) {}
 
   double x() const { return x_; }
   double y() const { return y_; }

@@ -15,7 +15,7 @@ Landmark OtherSide(Landmark landmark);
 SeenPerson WithSidesSwapped(const SeenPerson& person);
 
 /// A corrected mistake in a person's keypoints in one camera.
-struct Mend {
+struct PersonCorrection {
   enum class Kind {
     kSwappedSides,  ///< left and right exchanged on the whole body
     kSwappedArms,   ///< left and right exchanged on face, shoulders and arms only
@@ -38,8 +38,9 @@ struct Mend {
 /// labelling costs 1.5). The camera whose new labels lower the cost most is corrected first. With two cameras, only
 /// the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front of
 /// the ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
-std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                             double min_confidence, MatchedPerson& person);
+std::vector<PersonCorrection> CorrectPerson(std::span<const ProjectionMatrix> cameras,
+                                            std::span<const SeenPeople> people, double min_confidence,
+                                            MatchedPerson& person);
 
 /// Returns an outlier threshold in pixels from the distribution of the residuals: eight times their robust standard
 /// deviation (1.48 · median), at least `min_px` and at most `max_px`.

@@ -1,4 +1,4 @@
-#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/interpolate_gaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +55,8 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// Finds the vector d, of any length, that minimises the sum of squares in the comment on `BridgeGaps`, and returns d
-// normalised.
+// Finds the vector d, of any length, that minimises the sum of squares in the comment on `InterpolateGaps`, and returns
+// d normalised.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));
@@ -124,15 +124,15 @@ class FrameBridge {
 
 }  // namespace
 
-std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
-                                                       const BridgeOptions& options) {
+std::vector<std::optional<LimbObservation>> InterpolateGaps(std::span<const FrameMeasurement> frames,
+                                                            const BridgeOptions& options) {
   std::vector<std::optional<LimbObservation>> bridged;
   for (int k = 0; k < static_cast<int>(frames.size()); ++k)
     bridged.push_back(FrameBridge(frames, k, options).Complete());
   return bridged;
 }
 
-std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options) {
+std::optional<LimbObservation> ExtrapolateLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options) {
   return FrameBridge(frames, static_cast<int>(frames.size()) - 1, options).Complete();
 }
 

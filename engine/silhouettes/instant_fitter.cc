@@ -1,4 +1,4 @@
-#include "engine/silhouettes/moment_fitter.h"
+#include "engine/silhouettes/instant_fitter.h"
 
 #include <algorithm>
 #include <optional>
@@ -66,7 +66,7 @@ SilhouetteBody ThicknessEstimate::Apply() const {
   return body;
 }
 
-MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& options) : body_(body), options_(options) {
+InstantFitter::InstantFitter(const SilhouetteBody& body, const TrackOptions& options) : body_(body), options_(options) {
   wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};
   wide_.cost.outline_reach_px *= kWideReach;
   wide_.cost.inside_reach_px *= kWideReach;
@@ -74,22 +74,23 @@ MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& optio
   fine_ = {.cost = options.cost, .max_iterations = kFineSteps};
 }
 
-PosePrior MomentFitter::PriorNear(const TreeState& state) const {
+PosePrior InstantFitter::PriorNear(const TreeState& state) const {
   return {state, options_.position_change_m, options_.angle_change, options_.angle_change};
 }
 
-SilhouetteFit MomentFitter::Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far) {
+SilhouetteFit InstantFitter::Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior,
+                                 bool is_far) {
   if (!is_far) return FitSilhouettes(body_, views, start, prior, fine_, workspace_);
   const TreeState from = FitSilhouettes(body_, views, start, prior, wide_, workspace_).state;
   return FitFurther(body_, views, from, prior, fine_, workspace_);
 }
 
-SilhouetteFit MomentFitter::FitKnown(const MomentViews& views, const TreeState& start) {
+SilhouetteFit InstantFitter::FitKnown(const MomentViews& views, const TreeState& start) {
   const PosePrior prior{start, options_.start_position_m, options_.start_angle, options_.start_angle};
   return Fit(views, start, &prior, true);
 }
 
-SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last) {
+SilhouetteFit InstantFitter::Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last) {
   const TreeState foretold = Extrapolated(before_last, last, kSpeedKept);
   const PosePrior prior = PriorNear(foretold);
   // Start from the pose of lower cost; the workspace keeps its projected capsules for the fit.
@@ -103,7 +104,7 @@ SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& be
 
 // Fits the body from every heading and posture, starting at the point triangulated from the silhouettes' centres.
 // Returns the fits by ascending cost.
-std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
+std::vector<SilhouetteFit> InstantFitter::Guesses(const MomentViews& views) {
   constexpr int kHeadings = 8;
   std::vector<SilhouetteFit> fits;
   const std::optional<glm::dvec3> middle = FindMiddle(views);
@@ -119,7 +120,7 @@ std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
   return fits;
 }
 
-std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
+std::vector<SilhouetteFit> InstantFitter::Find(const MomentViews& views) {
   constexpr double kAnotherWay = Radians(100);
   constexpr std::size_t kMaxPoses = 3;
   std::vector<SilhouetteFit> found;
@@ -134,7 +135,8 @@ std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
   return found;
 }
 
-SilhouetteFit MomentFitter::WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior) {
+SilhouetteFit InstantFitter::WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit,
+                                            const PosePrior* prior) {
   SilhouetteFit best = fit;
   for (const SilhouetteBody::Limb& limb : body_.limbs) {
     for (const TreeState& start : LimbCandidates(body_, views, best.state, limb, wide_.cost)) {
