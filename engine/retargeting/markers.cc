@@ -394,12 +394,10 @@ std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOpti
       if (lacks.size() >= fewest || (!options.set.empty() && set.key != options.set)) return;
       fewest = lacks.size();
       nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
+      const bool is_made_of_skin = person.chosen.made && &set == &*person.chosen.made && set.has_skin_limbs;
+      why = is_made_of_skin ? "; markers on thighs, shanks and upper arms do not determine joints" : "";
     };
     if (person.chosen.made) compare(*person.chosen.made);
-    if (person.chosen.made && person.chosen.made->has_skin_limbs) {
-      why = "; markers on thighs, shanks and upper arms do not determine joints";
-      continue;
-    }
     for (const MarkerSet& set : MarkerSets()) compare(set);
   }
   const std::size_t shown = std::min<std::size_t>(markers.names.size(), 12);
