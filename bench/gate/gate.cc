@@ -160,7 +160,7 @@ std::vector<std::string> DescribeSilent(const FinishedRun& run) {
   for (const FinishedScenario& scenario : run.scenarios) {
     const std::vector<std::string>& named = scenario.study.gate.metrics;
     for (const auto& [id, metric] : AddedMetrics()) {
-      if (named.empty() || std::ranges::find(named, id) != named.end()) judged[scenario.study.name].insert(id);
+      if (named.empty() || std::ranges::find(named, id) != named.end()) judged[scenario.study.scenario].insert(id);
     }
   }
   // Collect the reasons why cells have no answer, and why cells with an answer have no value of an own metric.

@@ -358,7 +358,7 @@ TEST(RowClock, KeepsTheTimeOfASingleRow) {
 }
 
 TEST(RowClock, TimesThatAreNotWholeAreNoFrameNumbers) {
-  MarkerRows rows{.markers = {.names = {"A"}, .frames = {}, .rate_hz = 30},
+  MarkerRows rows{.markers = {.rate_hz = 30, .names = {"A"}, .frames = {}},
                   .times_s = {0, 1, 2, 2.5, 5, 5.0333, 6.6667},
                   .lines = {},
                   .rate_name = "DataRate"};
