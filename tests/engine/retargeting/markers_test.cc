@@ -22,6 +22,7 @@ constexpr std::size_t kTakeFrames = 40;
 /// Returns a person who stands, faces +Z and sways; metres, Y up.
 BodyPose StandingAt(std::size_t frame) {
   BodyPose pose = testing::StandingPerson();
+  for (const Role ankle : {Role::kLeftAnkle, Role::kRightAnkle}) pose[ankle].y = 0.07;  // shanks of 0.41 m
   for (glm::dvec3& joint : pose.joints) joint.x += 0.01 * static_cast<double>(frame);
   return pose;
 }
