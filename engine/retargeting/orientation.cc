@@ -45,10 +45,13 @@ glm::dvec3 Reach(const BodyPose& pose, Role upper, Role middle, Role end) {
   return length > 0 ? (pose[end] - pose[upper]) / length : glm::dvec3(0);
 }
 
-/// Returns the bending angle of a limb's middle joint, radians; negative if the joint points away from `forward`.
-double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
-  const double angle = AngleBetween(middle - upper, end - middle);
-  return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
+/// Returns the bending angle of a knee, radians; negative if the knee points away from the fronts of both trunk and
+/// thigh. (The trunk may bend far backwards, and the thigh may turn sideways.)
+double KneeBend(const BodyPose& pose, Role hip, Role knee, Role ankle) {
+  const double angle = AngleBetween(pose[knee] - pose[hip], pose[ankle] - pose[knee]);
+  const glm::dvec3 offset = pose[knee] - 0.5 * (pose[hip] + pose[ankle]);
+  const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[hip] - pose[knee]);
+  return glm::dot(Forward(pose), offset) < 0 && glm::dot(front, offset) < 0 ? -angle : angle;
 }
 
 /// Evidence that left and right are not exchanged. It is measured in the body's own frame, so the body may lie or turn
@@ -56,7 +59,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
 struct Sides {
   double shoulders = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive if not exchanged
   LegSides legs;
-  std::vector<double> knee_bends;  ///< result of Bend for left and right knee in each frame
+  std::vector<double> knee_bends;  ///< result of KneeBend for left and right knee in each frame
 };
 
 Sides MeasureSides(std::span<const BodyPose> poses) {
@@ -68,9 +71,7 @@ Sides MeasureSides(std::span<const BodyPose> poses) {
                                                 std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
       sides.legs.Add(pose[kLeftHip] - pose[kRightHip], pose[hip], pose[knee], pose[ankle], pose[toe]);
       sides.knees += glm::dot(forward, BendOffset(pose, hip, knee, ankle));
-      // The front of the thigh, because the trunk may bend far backwards.
-      const glm::dvec3 front = glm::cross(pose[kLeftHip] - pose[kRightHip], pose[hip] - pose[knee]);
-      sides.knee_bends.push_back(Bend(front, pose[hip], pose[knee], pose[ankle]));
+      sides.knee_bends.push_back(KneeBend(pose, hip, knee, ankle));
     }
     for (const auto& [shoulder, elbow, wrist] :
          {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
