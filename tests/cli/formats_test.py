@@ -299,6 +299,17 @@ class Formats(MotionFileCase):
         expected = places[:, names.index("left_wrist")] - places[:, names.index("right_knee")]
         numpy.testing.assert_allclose(wrists, expected, atol=1e-6)
         self.refused(f"{path}#body_25", "17 joints in the layout 'body_25'")
+        # Layouts whose points have the names of a marker set.
+        for layout, order in (
+                ("body_25", "head shoulder_centre right_shoulder right_elbow right_wrist left_shoulder left_elbow left_wrist "
+                            "hip_centre right_hip right_knee right_ankle left_hip left_knee left_ankle head head head head "
+                            "left_foot left_foot left_ankle right_foot right_foot right_ankle"),
+                ("halpe_26", "head head head head head left_shoulder right_shoulder left_elbow right_elbow left_wrist "
+                             "right_wrist left_hip right_hip left_knee right_knee left_ankle right_ankle head "
+                             "shoulder_centre hip_centre left_foot right_foot left_foot right_foot left_ankle right_ankle")):
+            numpy.save(path, places[:, [names.index(name) for name in order.split()]])
+            wrists = [frame["left_wrist"] - frame["right_knee"] for frame in self.joints(f"{path}#{layout}")]
+            numpy.testing.assert_allclose(wrists, expected, atol=1e-6)
         numpy.save(path, numpy.asfortranarray(places))
         self.assert_read_back(path, places, 1e-9)
         numpy.save(path, places[:, :, :2])
