@@ -9,6 +9,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/tags_file.h"
 #include "io/files/files.h"

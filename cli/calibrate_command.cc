@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/cameras/dlt.h"
 #include "tools/calibrate/calibrate_rig.h"

@@ -10,6 +10,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/body_choice.h"
 #include "io/clips/clip_library.h"

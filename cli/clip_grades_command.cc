@@ -8,6 +8,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/base/csv.h"
 #include "engine/fuzzy/fuzzy_motion.h"
 #include "io/clips/clip_library.h"

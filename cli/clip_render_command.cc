@@ -5,7 +5,7 @@
 #include "cli/arguments.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "io/clips/references.h"
 #include "io/files/files.h"

@@ -13,7 +13,7 @@
 
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/coaching/policy.h"
 #include "engine/formats/wav.h"
 #include "engine/recognition/filters.h"

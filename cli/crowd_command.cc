@@ -16,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/kinematics/body_tree.h"
 #include "io/files/files.h"

@@ -14,6 +14,7 @@
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "cli/evaluate_alone.h"
 #include "cli/evaluate_parts.h"
 #include "cli/facts.h"
 #include "cli/named_results.h"

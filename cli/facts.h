@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstdio>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "engine/base/result.h"
 #include "io/files/json.h"
@@ -41,12 +39,5 @@ class StdoutToStderr {
  private:
   int output_ = -1;  ///< a copy of the original standard output; −1 = not redirected
 };
-
-/// Fails if a path does not end in `ending` (such as ".png"), if it names a folder or a device, or, without
-/// `overwrite`, an existing file. The path "" (no output) is fine.
-Result<void> CheckOutput(const std::string& path, bool overwrite, std::string_view ending = "");
-
-/// Prints to `stream` that a file was written. Pass `stderr` if standard output must contain only JSON.
-void TellWritten(const std::string& path, std::FILE* stream = stdout);
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/angles.h"
 #include "engine/keypoints/people.h"

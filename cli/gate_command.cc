@@ -60,7 +60,7 @@ void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
 }
 
 void PrintReport(const GateReport& report) {
-  PrintList("Verdicts that became worse:", FallenLines(report));
+  PrintList("Verdicts that became worse:", WorsenedLines(report));
   PrintMoves(report.comparison, "baseline", "now", kMaxRows);
   for (const TailGroup group : {TailGroup::kFailing, TailGroup::kTooFew, TailGroup::kNotJudged}) {
     PrintWorlds(std::string(TailHeading(group)), TailLines(report, group, kMaxWorldsEach, kMaxWorlds));
@@ -81,7 +81,7 @@ void PrintReport(const GateReport& report) {
   if (!report.baseline_version.empty())
     PrintVersions("the baseline", report.baseline_version, "the run", report.program_version);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
-  const std::vector<std::string> reversed = FallenLines(report, true);
+  const std::vector<std::string> reversed = WorsenedLines(report, true);
   fmt::print("Gate: {}{}{}\n", GateVerdictWords(GateVerdictOf(report)),
              reversed.empty() ? "" : ": " + Join(reversed, "; "),
              report.baseline_file.empty() ? ", without a baseline (--baseline FILE --update writes a baseline)" : "");
@@ -129,7 +129,7 @@ Json FactsOf(const GateReport& report, const RunData& run) {
                        {"verdict", VerdictName(answer.verdict)},
                        {"decided_by", NameOfValue(kAnswerSteps, answer.decided_by)}});
   }
-  facts["fallen"] = FallenLines(report);
+  facts["fallen"] = WorsenedLines(report);
   facts["silent"] = report.silent;
   facts["incomplete"] = report.incomplete;
   return facts;

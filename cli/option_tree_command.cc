@@ -7,7 +7,7 @@
 
 #include "bench/run/shipped.h"
 #include "cli/commands.h"
-#include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/base/names.h"
 #include "io/files/files.h"
 

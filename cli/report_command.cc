@@ -10,7 +10,7 @@
 #include "bench/results/folder.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
 #include "engine/base/names.h"

@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/base/names.h"
 #include "engine/streams/stream_maker.h"
 #include "io/files/files.h"

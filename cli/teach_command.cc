@@ -9,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/stream_reading.h"
 #include "engine/base/names.h"
 #include "engine/teaching/moves_file.h"

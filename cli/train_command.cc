@@ -19,6 +19,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"

@@ -7,6 +7,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
+#include "cli/output_file.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/join.h"
 #include "tools/clips/transition_file.h"

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
 #include "engine/base/names.h"

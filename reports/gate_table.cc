@@ -187,10 +187,10 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   return sentences;
 }
 
-std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped) {
+std::vector<std::string> WorsenedLines(const GateReport& report, bool only_reversed) {
   std::vector<std::string> lines;
-  for (const WorsenedAnswer& one : report.fallen) {
-    if (one.IsReversed() || !only_flipped) lines.push_back(DescribeFallen(one));
+  for (const WorsenedAnswer& one : report.worsened) {
+    if (one.IsReversed() || !only_reversed) lines.push_back(DescribeWorsened(one));
   }
   return lines;
 }
@@ -383,7 +383,8 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("**The run is incomplete**, so there is no overall verdict:", report.incomplete);
   text += List("**Without an answer or a value in any cell:**", report.silent);
   text += List("**Expectations and time rules that are not met:**", ClaimsThatAre(report, ClaimOutcome::kUnmet));
-  text += List("**Verdicts that became worse** (a change from better to worse is a regression):", FallenLines(report));
+  text +=
+      List("**Verdicts that became worse** (a change from better to worse is a regression):", WorsenedLines(report));
   // Write the changed metrics. Changes that fail the gate are visible; all other changes are collapsed.
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
@@ -426,7 +427,7 @@ std::string WriteGateJunit(const GateReport& report) {
   std::vector<JunitSuite> suites = {{"gate",
                                      {empty("every cell can be judged", report.incomplete),
                                       empty("every method has an answer, and every metric a value", report.silent),
-                                      empty("no verdict changed from better to worse", FallenLines(report, true))}}};
+                                      empty("no verdict changed from better to worse", WorsenedLines(report, true))}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());

@@ -35,9 +35,9 @@ std::string_view GateVerdictWords(GateVerdict verdict);
 /// Returns one sentence for each kind of check of the gate: "12 expectations: 11 met, 1 unmet", "against the baseline,
 /// 170 comparisons: 2 worse, 168 same".
 std::vector<std::string> GateSentences(const GateReport& report);
-/// Returns one line for each answer whose verdict became worse since the baseline. If `only_flipped` is true, returns
+/// Returns one line for each answer whose verdict became worse since the baseline. If `only_reversed` is true, returns
 /// only the answers that changed from better to worse, which fail the gate.
-std::vector<std::string> FallenLines(const GateReport& report, bool only_flipped = false);
+std::vector<std::string> WorsenedLines(const GateReport& report, bool only_reversed = false);
 /// Returns one line for each method and reason why values cannot be compared: "evaluate, -, mine: not judged alike: …",
 /// with the metrics. These changes are undecided.
 std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison);

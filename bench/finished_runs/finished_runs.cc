@@ -214,7 +214,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
 
 namespace {
 
-Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, LoadedPart held) {
+Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, LoadedPart part) {
   FinishedRun run;
   if (Exists(Inside(folder) / kJournalFile)) {
     if (const std::string shard = ShardInWords(folder); !shard.empty()) return Fail({folder.string()}, "{}", shard);
@@ -222,7 +222,7 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Loa
         fmt::format("the run was interrupted or is still running, because the file {} exists", kJournalFile));
     return run;
   }
-  const auto load = held == LoadedPart::kAll ? LoadRun : LoadRunRowByRow;
+  const auto load = part == LoadedPart::kAll ? LoadRun : LoadRunRowByRow;
   ASSIGN_OR_RETURN(run.data, load(folder, sealing));
   ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
   RETURN_IF_ERROR(CheckStillThere(folder, run.data));
@@ -237,9 +237,9 @@ Result<FinishedRun> ReadFinishedRun(const fs::path& folder, Sealing sealing, Loa
 
 }  // namespace
 
-Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing, LoadedPart held) {
+Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing, LoadedPart part) {
   const FolderBegun begun(folder);
-  return begun.Tell(ReadFinishedRun(folder, sealing, held));
+  return begun.Tell(ReadFinishedRun(folder, sealing, part));
 }
 
 }  // namespace etude

@@ -43,6 +43,6 @@ enum class LoadedPart {
 /// the reason (`incomplete`). Fails as LoadRun and CheckRows do. Fails also if this program has another version of a
 /// metric than the manifest, or if a rule on processor times needs times that the run does not have.
 Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired,
-                                    LoadedPart held = LoadedPart::kAll);
+                                    LoadedPart part = LoadedPart::kAll);
 
 }  // namespace etude

@@ -218,7 +218,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   const Snapshot now = TakeSnapshot(run);
   RETURN_IF_ERROR(RequireComparable(*baseline, now, baseline_file));
   report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run), TailRulesOf(run));
-  report.fallen = FindFallenAnswers(run, *baseline, now, report.comparison.moves);
+  report.worsened = FindWorsenedAnswers(run, *baseline, now, report.comparison.moves);
   for (const std::string& name : report.comparison.only_before) {
     report.incomplete.push_back("the baseline contains values that the run lacks: " + name);
   }
@@ -232,7 +232,7 @@ bool IsRegression(const MetricMove& move) {
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kIncomplete;
   const auto unmet = [](const auto& judged) { return judged.outcome == ClaimOutcome::kUnmet; };
-  const bool fails = !report.silent.empty() || std::ranges::any_of(report.fallen, &WorsenedAnswer::IsReversed) ||
+  const bool fails = !report.silent.empty() || std::ranges::any_of(report.worsened, &WorsenedAnswer::IsReversed) ||
                      std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
                      std::any_of(report.expectations.begin(), report.expectations.end(),

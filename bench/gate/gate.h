@@ -54,14 +54,15 @@ struct GateReport {
   std::string program_version;   ///< the version of the program that made the run
   std::vector<GateExpectation> expectations;
   /// The run's verdicts on methods against their baseline methods, for the report. They do not affect the gate's
-  /// verdict by themselves; only changes since the baseline do (`fallen`).
+  /// verdict by themselves; only changes since the baseline do (`worsened`).
   std::vector<GateAnswer> answers;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
   /// Answers whose verdict became worse. Only a change from "better" to "worse" makes the gate fail
   /// (WorsenedAnswer::IsReversed).
-  std::vector<WorsenedAnswer> fallen;
-  /// One sentence for each method without any answer; each such method makes the gate fail.
+  std::vector<WorsenedAnswer> worsened;
+  /// One sentence for each method without any answer, and for each own metric without any value (DescribeSilent). Each
+  /// of them makes the gate fail.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
   /// True: some methods are outside programs, so `etude replay` needs permission to run them.

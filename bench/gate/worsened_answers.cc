@@ -54,16 +54,16 @@ ScenarioSummary SummaryOf(Study study, const SnapshotScenario& snapshot) {
   return Summarise(study, table, snapshot.seed);
 }
 
-bool HasFallen(Verdict before, Verdict after) {
+bool HasWorsened(Verdict before, Verdict after) {
   if (before == Verdict::kBetter) return after == Verdict::kNoDifference || after == Verdict::kWorse;
   return before == Verdict::kNoDifference && after == Verdict::kWorse;
 }
 
 }  // namespace
 
-std::vector<WorsenedAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
-                                              std::span<const MetricMove> moves) {
-  std::vector<WorsenedAnswer> fallen;
+std::vector<WorsenedAnswer> FindWorsenedAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
+                                                std::span<const MetricMove> moves) {
+  std::vector<WorsenedAnswer> worsened;
   for (const FinishedScenario& one : run.scenarios) {
     const std::string& name = one.study.scenario;
     const bool differs = std::ranges::any_of(
@@ -76,16 +76,16 @@ std::vector<WorsenedAnswer> FindFallenAnswers(const FinishedRun& run, const Snap
     for (std::size_t c = 0; c < now.conditions.size(); ++c) {
       for (std::size_t i = 0; i < now.conditions[c].answers.size(); ++i) {
         const Answer &old = then.conditions[c].answers[i], &answer = now.conditions[c].answers[i];
-        if (!HasFallen(old.verdict, answer.verdict)) continue;
-        fallen.push_back({name, CompactLabel(now.conditions[c].condition), answer.method, answer.baseline, old.verdict,
-                          answer.verdict});
+        if (!HasWorsened(old.verdict, answer.verdict)) continue;
+        worsened.push_back({name, CompactLabel(now.conditions[c].condition), answer.method, answer.baseline,
+                            old.verdict, answer.verdict});
       }
     }
   }
-  return fallen;
+  return worsened;
 }
 
-std::string DescribeFallen(const WorsenedAnswer& one) {
+std::string DescribeWorsened(const WorsenedAnswer& one) {
   return fmt::format("{}{}: {} against {}: {} before, now {}", one.scenario,
                      one.condition == "-" ? "" : ", " + one.condition, one.method, one.baseline,
                      VerdictName(one.before), VerdictName(one.after));

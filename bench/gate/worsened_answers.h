@@ -24,11 +24,11 @@ struct WorsenedAnswer {
 /// Returns the answers whose verdict fell from "better" to "no difference" or "worse", or from "no difference" to
 /// "worse". An answer may fall although neither method's values moved by a practical threshold: the method became a
 /// little worse, and its baseline method a little better. An answer that is undecided in either snapshot has not
-/// fallen.
-std::vector<WorsenedAnswer> FindFallenAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
-                                              std::span<const MetricMove> moves);
+/// worsened.
+std::vector<WorsenedAnswer> FindWorsenedAnswers(const FinishedRun& run, const Snapshot& before, const Snapshot& after,
+                                                std::span<const MetricMove> moves);
 
-/// Describes a fallen answer: "ik-weights, joint_noise_deg=5: adaptive against fixed: better before, now worse".
-std::string DescribeFallen(const WorsenedAnswer& one);
+/// Describes a worsened answer: "ik-weights, joint_noise_deg=5: adaptive against fixed: better before, now worse".
+std::string DescribeWorsened(const WorsenedAnswer& one);
 
 }  // namespace etude

@@ -120,7 +120,7 @@ class ShiftFinder {
   }
 
   /// Returns the shift, in whole frames of the truth, that fits best. In a motion that repeats, many shifts fit nearly
-  /// as well; of these, takes the best one among the neighbours of the smallest one. Returns nothing if no shift
+  /// as well (step 1 of FindTimeShift). Returns nothing if no shift
   /// explains kMinExplainedShare of the variance, or if the shift is the largest that is searched.
   std::optional<int> FindWholeFrames() const {
     constexpr std::size_t kMaxCompared = 1000;  // largest number of compared frames

@@ -27,8 +27,9 @@ inline constexpr double kMinExplainedShare = 0.5;
 /// For each pair of joints, a line α + β s with β ≥ 0 is fitted to the answer's distance f, where s is the true
 /// distance.
 /// 1. Try every whole number of the truth's frames within ±kMaxTimeShift_s; take the one at which the lines explain
-///    most of the variance of f. If others leave at most 1.44 times as much unexplained, as in a motion that repeats,
-///    take the best one among the neighbours of the smallest one.
+///    most of the variance of f. In a motion that repeats, several shifts fit nearly as well: the variance that they
+///    leave unexplained is at most 1.44 times the least. Then start from the smallest of them, and take the best one
+///    that is connected with it by such shifts.
 /// 2. From there, find by Newton's method the shift at which Σ w β v · (f − α − β s) = 0 over all pairs and frames.
 /// Here v is the rate of change of s by central differences, minus its regression on 1 and s. v is computed from the
 /// truth, because the noise in the answer's distances would bias the shift towards half frames. w = 1 / (the pair's

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bench/model/reasons.h"
+#include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/watched_program.h"
 #include "sim/random/stream.h"

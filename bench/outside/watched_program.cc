@@ -3,23 +3,21 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "engine/base/machine.h"
-#include "io/files/files.h"
 
 namespace etude {
 namespace {
@@ -279,31 +277,5 @@ std::string WatchedProgram::WithoutFolder(std::string text) const {
 }
 
 double WatchedProgram::TakeCpuSeconds() { return cpu_s_ - std::exchange(cpu_charged_s_, cpu_s_); }
-
-namespace fs = std::filesystem;
-
-Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& attachment_root, std::span<const Attachment> files) {
-  AttachmentFolder folder;
-  if (files.empty()) return folder;
-  std::string name = (attachment_root / std::string(kNameLength, 'X')).string();
-  if (::mkdtemp(name.data()) == nullptr) return CannotWrite(name, "cannot be made", errno);
-  folder.path_ = name;
-  for (const Attachment& file : files) {
-    RETURN_IF_ERROR(WriteFileAtomically(folder.path_ / file.name, file.bytes, OnDisk::kLater));
-  }
-  return folder;
-}
-
-AttachmentFolder::AttachmentFolder(AttachmentFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-
-AttachmentFolder& AttachmentFolder::operator=(AttachmentFolder&& other) noexcept {
-  std::swap(path_, other.path_);
-  return *this;
-}
-
-AttachmentFolder::~AttachmentFolder() {
-  std::error_code ignored;
-  if (!path_.empty()) fs::remove_all(path_, ignored);
-}
 
 }  // namespace etude

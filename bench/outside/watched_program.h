@@ -2,13 +2,10 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 
-#include "bench/model/payload.h"
 #include "bench/outside/outside_method.h"
 #include "bench/outside/program_view.h"
-#include "engine/base/result.h"
 #include "io/files/temporary_folder.h"
 #include "io/process/child_process.h"
 #include "io/process/clock.h"
@@ -126,26 +123,6 @@ class WatchedProgram {
   double cpu_s_ = 0;          ///< processor time of the running program at the last sample
   double cpu_charged_s_ = 0;  ///< the part of cpu_s_ that TakeCpuSeconds has already returned
   double peak_mb_ = 0;
-};
-
-/// A folder that contains attachments. The destructor deletes the folder with its contents.
-class AttachmentFolder {
- public:
-  static constexpr std::size_t kNameLength = 6;  ///< length of the folder's name in `attachment_root`
-
-  AttachmentFolder() = default;
-  /// Makes a folder in `attachment_root` and writes the files into it. Makes no folder if there are no files.
-  static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,
-                                        std::span<const Attachment> files);
-  AttachmentFolder(AttachmentFolder&& other) noexcept;
-  AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
-  ~AttachmentFolder();
-
-  /// Returns the folder's path; "" if there is no folder.
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace etude

@@ -19,7 +19,7 @@
 #include "bench/results/summary_json.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"
-#include "bench/run/sum_up.h"
+#include "bench/run/parallel_summary.h"
 #include "bench/run/supervisor.h"
 #include "bench/statistics/scenario_table.h"
 #include "engine/base/machine.h"

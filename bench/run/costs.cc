@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/parallel_summary.h"
 #include "bench/run/shipped.h"
-#include "bench/run/sum_up.h"
 #include "engine/base/digest.h"
 #include "io/files/json.h"
 #include "io/process/clock.h"

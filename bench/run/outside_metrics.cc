@@ -34,10 +34,10 @@ struct Measured {
 
 /// Returns what a value of this kind must be, if `value` is not; else "".
 std::string_view WhatItMustBe(double value, Reading reading) {
-  if (reading == Reading::kYesNo && value != 0 && value != 1) return "0 or 1";
   constexpr double kLargest = 1e100;  // sums of squares of larger values would overflow
-  if (std::abs(value) > kLargest) return "-1e100 to 1e100";
-  return reading != Reading::kAmount && !(value >= 0 && value <= 1) ? "0 to 1" : "";
+  if (reading == Reading::kAmount) return std::abs(value) > kLargest ? "-1e100 to 1e100" : "";
+  if (reading == Reading::kYesNo && value != 0 && value != 1) return "0 or 1";
+  return value >= 0 && value <= 1 ? "" : "0 to 1";
 }
 
 Measured ReadValue(const MetricInfo& metric, const OutsideReply& reply) {

@@ -15,7 +15,7 @@
 #include "bench/results/columns.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
-#include "bench/run/sum_up.h"
+#include "bench/run/parallel_summary.h"
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/study_of.h"
 #include "engine/base/machine.h"

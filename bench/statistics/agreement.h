@@ -1,13 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "bench/metrics/alignment.h"
 #include "bench/metrics/joint_angles.h"
 #include "bench/model/run_data.h"
 #include "bench/statistics/interval.h"
@@ -47,17 +45,5 @@ struct AngleAgreement {
 /// Measures the agreement of every angle of a run. The cells store an angle's sums (AgreementSums) as a series with the
 /// axis kAgreementAxis. The angles are in the order of the cells.
 std::vector<AngleAgreement> AgreementByAngle(const RunData& run);
-
-/// The errors of one joint under one condition of a scenario, for one method.
-struct EvaluatedJoint {
-  std::vector<SweptValue> condition;
-  std::string method, joint;
-  std::array<int, kByJoint.size()> pairs = {};  ///< number of pairs with a value, in the order of kByJoint
-  JointMeans mean_mm;                           ///< mean over these pairs, each of which counts once, as in mpjpe_…
-};
-
-/// Returns the errors of every joint whose means (JointMeans) the cells of a run contain, as series with the axis
-/// kJointErrorAxis. Joints are in the order of the cells.
-std::vector<EvaluatedJoint> ErrorsByJoint(const RunData& run);
 
 }  // namespace etude

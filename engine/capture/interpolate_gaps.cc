@@ -22,7 +22,7 @@ glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double 
 glm::dvec3 MixPoints(const glm::dvec3& from, const glm::dvec3& to, double share) { return glm::mix(from, to, share); }
 
 /// A quantity at one frame, interpolated between measurements.
-struct Bridged {
+struct FilledValue {
   glm::dvec3 value{0};
   int distance = 0;  ///< number of frames to the nearest measurement; 0 if the frame itself was measured
 };
@@ -30,7 +30,7 @@ struct Bridged {
 // Returns the value at `frame`, interpolated with `mix` between the nearest frames that have a value (`value_at`).
 // Returns nullopt if no such frame is within `max_gap` frames.
 template <typename ValueAt, typename Mix>
-std::optional<Bridged> Bridge(int frame, int frames, int max_gap, ValueAt value_at, Mix mix) {
+std::optional<FilledValue> Interpolated(int frame, int frames, int max_gap, ValueAt value_at, Mix mix) {
   int before = frame, after = frame;
   while (before >= 0 && !value_at(before)) --before;
   while (after < frames && !value_at(after)) ++after;
@@ -38,10 +38,10 @@ std::optional<Bridged> Bridge(int frame, int frames, int max_gap, ValueAt value_
   const bool is_near = (has_before && frame - before <= max_gap) || (has_after && after - frame <= max_gap);
   if (!is_near) return std::nullopt;
   const int distance = std::min(has_before ? frame - before : frames, has_after ? after - frame : frames);
-  if (!has_after || before == after) return Bridged{*value_at(before), distance};
-  if (!has_before) return Bridged{*value_at(after), distance};
+  if (!has_after || before == after) return FilledValue{*value_at(before), distance};
+  if (!has_before) return FilledValue{*value_at(after), distance};
   const double share = static_cast<double>(frame - before) / (after - before);
-  return Bridged{mix(*value_at(before), *value_at(after), share), distance};
+  return FilledValue{mix(*value_at(before), *value_at(after), share), distance};
 }
 
 // Returns the direction of a limb that is assumed not to be foreshortened: the mean direction of its strokes, from
@@ -57,25 +57,25 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
 
 // Finds the vector d, of any length, that minimises the sum of squares in the comment on `InterpolateGaps`, and returns
 // d normalised.
-glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
-  const double turn = options.turn_per_frame * bridged.distance;
+glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const FilledValue& filled, const GapOptions& options) {
+  const double turn = options.turn_per_frame * filled.distance;
   glm::dmat3 squares(1 / (turn * turn));
-  const glm::dvec3 wanted = bridged.value / (turn * turn);
+  const glm::dvec3 wanted = filled.value / (turn * turn);
   for (const StrokePlane& plane : planes) {
     constexpr double kMinError = Radians(1);
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
-    const double sine = glm::length(glm::cross(middle, bridged.value));
+    const double sine = glm::length(glm::cross(middle, filled.value));
     const double error = std::max(kMinError, std::sqrt(2.0) * options.mark_error_px / plane.length_px * sine);
     squares += glm::outerProduct(plane.normal_W, plane.normal_W) / (error * error);
   }
   const glm::dvec3 direction = glm::inverse(squares) * wanted;
-  return UnitOr(direction, bridged.value);
+  return UnitOr(direction, filled.value);
 }
 
 /// Completes one frame of a take.
-class FrameBridge {
+class GapFiller {
  public:
-  FrameBridge(std::span<const FrameMeasurement> frames, int frame, const BridgeOptions& options)
+  GapFiller(std::span<const FrameMeasurement> frames, int frame, const GapOptions& options)
       : frames_(frames), frame_(frame), options_(options) {}
 
   std::optional<LimbObservation> Complete() const {
@@ -102,38 +102,37 @@ class FrameBridge {
 
   std::optional<glm::dvec3> End(std::size_t role) const {
     const auto end_at = [&](int k) -> const auto& { return frames_[k].ends[role]; };
-    const auto bridged = Bridge(frame_, Count(), options_.max_gap, end_at, MixPoints);
-    if (!bridged) return std::nullopt;
+    const auto filled = Interpolated(frame_, Count(), options_.max_gap, end_at, MixPoints);
+    if (!filled) return std::nullopt;
     const auto& line = frames_[frame_].sight_lines[role];
-    return line ? NearestOn(*line, bridged->value) : bridged->value;
+    return line ? NearestOn(*line, filled->value) : filled->value;
   }
 
   std::optional<glm::dvec3> Direction(std::size_t role) const {
     const auto direction_at = [&](int k) -> const auto& { return frames_[k].directions[role]; };
-    const auto bridged = Bridge(frame_, Count(), options_.max_gap, direction_at, SlerpDirections);
+    const auto filled = Interpolated(frame_, Count(), options_.max_gap, direction_at, SlerpDirections);
     const std::vector<StrokePlane>& planes = frames_[frame_].planes[role];
-    if (!bridged) return DirectionAcrossSight(planes);
-    if (bridged->distance == 0 || planes.empty()) return bridged->value;
-    return FuseDirection(planes, *bridged, options_);
+    if (!filled) return DirectionAcrossSight(planes);
+    if (filled->distance == 0 || planes.empty()) return filled->value;
+    return FuseDirection(planes, *filled, options_);
   }
 
   const std::span<const FrameMeasurement> frames_;
   const int frame_;
-  const BridgeOptions& options_;
+  const GapOptions& options_;
 };
 
 }  // namespace
 
 std::vector<std::optional<LimbObservation>> InterpolateGaps(std::span<const FrameMeasurement> frames,
-                                                            const BridgeOptions& options) {
-  std::vector<std::optional<LimbObservation>> bridged;
-  for (int k = 0; k < static_cast<int>(frames.size()); ++k)
-    bridged.push_back(FrameBridge(frames, k, options).Complete());
-  return bridged;
+                                                            const GapOptions& options) {
+  std::vector<std::optional<LimbObservation>> filled;
+  for (int k = 0; k < static_cast<int>(frames.size()); ++k) filled.push_back(GapFiller(frames, k, options).Complete());
+  return filled;
 }
 
-std::optional<LimbObservation> ExtrapolateLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options) {
-  return FrameBridge(frames, static_cast<int>(frames.size()) - 1, options).Complete();
+std::optional<LimbObservation> ExtrapolateLast(std::span<const FrameMeasurement> frames, const GapOptions& options) {
+  return GapFiller(frames, static_cast<int>(frames.size()) - 1, options).Complete();
 }
 
 }  // namespace etude

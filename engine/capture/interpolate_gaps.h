@@ -10,7 +10,7 @@
 
 namespace etude {
 
-struct BridgeOptions {
+struct GapOptions {
   /// A measurement is used at most this many frames before and after its own frame. 15 frames are half a second at 30
   /// Hz; after a longer time a limb can be anywhere. Scale this number with the frame rate. If only every n-th frame is
   /// marked, set it to at least n.
@@ -25,7 +25,7 @@ struct BridgeOptions {
 
 /// Completes every frame from the nearest measured frames before and after, separately for each quantity *(ours)*:
 /// directions along the great circle (slerp), points linearly. Before the first and after the last measurement the
-/// value is constant. A partial measurement of the frame itself is combined with the bridged value b *(ours)*:
+/// value is constant. A partial measurement of the frame itself is combined with the filled value b *(ours)*:
 /// - An end effector that only one camera sees is placed at the point of its sight line nearest to b; without b, the
 ///   end effector is lacking.
 /// - A limb that lies in planes with unit normals Nᵢ has the direction d that minimises
@@ -37,11 +37,11 @@ struct BridgeOptions {
 /// A quantity that is not seen in the frame and was not measured within `max_gap` frames is marked as lacking
 /// (`LimbObservation::lacks_end`); a frame that lacks everything is empty.
 std::vector<std::optional<LimbObservation>> InterpolateGaps(std::span<const FrameMeasurement> frames,
-                                                            const BridgeOptions& options = {});
+                                                            const GapOptions& options = {});
 
 /// Completes the last frame from the frames before it, as a live system must. Frames that are more than `max_gap`
 /// frames earlier have no effect.
 std::optional<LimbObservation> ExtrapolateLast(std::span<const FrameMeasurement> frames,
-                                               const BridgeOptions& options = {});
+                                               const GapOptions& options = {});
 
 }  // namespace etude

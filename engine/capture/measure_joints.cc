@@ -58,20 +58,20 @@ FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const
 bool IsMeasured(const PointMeasurement& measurement) { return measurement.information != glm::dmat3(0); }
 
 // Fills the gaps of a track linearly, and holds its first and last values.
-std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional<glm::dvec3>> track) {
-  std::vector<std::optional<glm::dvec3>> bridged(track.begin(), track.end());
+std::vector<std::optional<glm::dvec3>> InterpolateTrack(std::span<const std::optional<glm::dvec3>> track) {
+  std::vector<std::optional<glm::dvec3>> filled(track.begin(), track.end());
   const auto is_measured = [&](std::size_t frame) { return track[frame].has_value(); };
   FillGaps(track.size(), track.size(), is_measured,
            [&](std::size_t from, std::size_t frame, std::size_t to, double share) {
-             bridged[frame] = glm::mix(*track[from], *track[to], share);
+             filled[frame] = glm::mix(*track[from], *track[to], share);
            });
-  for (std::size_t i = 1; i < bridged.size(); ++i) {
-    if (!bridged[i]) bridged[i] = bridged[i - 1];
+  for (std::size_t i = 1; i < filled.size(); ++i) {
+    if (!filled[i]) filled[i] = filled[i - 1];
   }
-  for (std::size_t i = bridged.size(); i-- > 1;) {
-    if (!bridged[i - 1]) bridged[i - 1] = bridged[i];
+  for (std::size_t i = filled.size(); i-- > 1;) {
+    if (!filled[i - 1]) filled[i - 1] = filled[i];
   }
-  return bridged;
+  return filled;
 }
 
 // Measures a joint that a single picture shows: the point of its sight line nearest to `near_W`.
@@ -163,10 +163,10 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
       track[k] = joint->position;
     }
     // If one picture shows the joint, use the sight line and the neighbouring frames.
-    const auto bridged = BridgeTrack(track);
+    const auto filled = InterpolateTrack(track);
     for (std::size_t k = 0; k < count; ++k) {
-      if (track[k] || !bridged[k] || sightings[k][role].empty()) continue;
-      measured[k].joints[role] = OnSightLine(sightings[k][role].front(), *bridged[k]).value_or(PointMeasurement{});
+      if (track[k] || !filled[k] || sightings[k][role].empty()) continue;
+      measured[k].joints[role] = OnSightLine(sightings[k][role].front(), *filled[k]).value_or(PointMeasurement{});
     }
   }
   return measured;
@@ -179,8 +179,8 @@ std::vector<OptionalJoints> InterpolateJoints(std::span<const JointMeasurements>
     for (const JointMeasurements& frame : measured) {
       track.push_back(IsMeasured(frame.joints[role]) ? std::optional(frame.joints[role].position) : std::nullopt);
     }
-    const auto bridged = BridgeTrack(track);
-    for (std::size_t k = 0; k < measured.size(); ++k) joints[k][role] = bridged[k];
+    const auto filled = InterpolateTrack(track);
+    for (std::size_t k = 0; k < measured.size(); ++k) joints[k][role] = filled[k];
   }
   return joints;
 }

@@ -162,13 +162,13 @@ Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, dou
   return ToClip(body, states, rate_hz, name);
 }
 
-LiveRecovery::LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge)
-    : bridge_(bridge), recovery_(body, recover) {}
+LiveRecovery::LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const GapOptions& gaps)
+    : gaps_(gaps), recovery_(body, recover) {}
 
 std::optional<RecoveredFrame> LiveRecovery::Next(const FrameMeasurement& measured, const KnownAngles& known) {
-  if (latest_.size() > static_cast<std::size_t>(bridge_.max_gap)) latest_.erase(latest_.begin());
+  if (latest_.size() > static_cast<std::size_t>(gaps_.max_gap)) latest_.erase(latest_.begin());
   latest_.push_back(measured);
-  return recovery_.Next(ExtrapolateLast(latest_, bridge_), /*is_marked=*/true, known);
+  return recovery_.Next(ExtrapolateLast(latest_, gaps_), /*is_marked=*/true, known);
 }
 
 }  // namespace etude

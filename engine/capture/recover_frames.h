@@ -99,13 +99,13 @@ Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, dou
 class LiveRecovery {
  public:
   /// `body` must outlive this object.
-  LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge);
+  LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const GapOptions& gaps);
 
   /// Takes the next marked frame and returns its skeleton; nullopt as long as too little of the body has been seen.
   std::optional<RecoveredFrame> Next(const FrameMeasurement& measured, const KnownAngles& known = {});
 
  private:
-  const BridgeOptions bridge_;
+  const GapOptions gaps_;
   FrameRecovery recovery_;
   std::vector<FrameMeasurement> latest_;  ///< the last frames, as many as ExtrapolateLast uses
 };

@@ -20,9 +20,10 @@ inline constexpr double kMinMotionRate_hz = 1, kMaxMotionRate_hz = 10'000;
 /// row at a wrong time.
 double FittedRate(const std::vector<double>& steps, bool only_clear_steps);
 
-/// Returns the mean time between rows that come in bursts, as times of reception from sockets and pipes do: most steps
-/// between rows are much shorter than the mean step, a burst has at most eight rows on average, and over the bursts the
-/// rate of rows is steady. Returns nullopt for other rows. `times` ascend, in any unit.
+/// Returns the mean time between rows that come in bursts. A program that stores the time at which it receives a row
+/// from a socket or pipe writes such rows: most steps between rows are much shorter than the mean step, a burst has at
+/// most eight rows on average, and over the bursts the rate of rows is steady. Returns nullopt for other rows. `times`
+/// ascend, in any unit.
 std::optional<double> MeanStepOfBursts(std::span<const double> times);
 
 /// Returns the rate of rows whose times are uneven although no row is missing: at the mean rate, each row is within one

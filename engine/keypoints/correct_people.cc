@@ -48,10 +48,10 @@ void SwapGroup(SeenPerson& person, std::size_t group) {
   for (const auto& [left, right] : PairsOf(group)) std::swap(person[left], person[right]);
 }
 
-class Mender {
+class PersonCorrector {
  public:
-  Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double min_confidence,
-         MatchedPerson& person)
+  PersonCorrector(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double min_confidence,
+                  MatchedPerson& person)
       : cameras_(cameras),
         people_(people),
         least_confidence_(min_confidence),
@@ -67,7 +67,7 @@ class Mender {
     for (std::size_t group = 0; group < kGroups; ++group) SwapBack(group);
     for (std::size_t group = 0; group < kGroups; ++group) ResolveFacing(group);
     ReportSwaps();
-    return std::move(mends_);
+    return std::move(corrections_);
   }
 
  private:
@@ -149,12 +149,13 @@ class Mender {
     // Report the corrections by camera.
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       for (auto* list : {&found, &nobody}) {
-        PersonCorrection& mend = (*list)[c];
-        mend.frames.erase(std::unique(mend.frames.begin(), mend.frames.end()), mend.frames.end());
-        if (mend.frames.empty()) continue;
-        mend.camera = c;
-        mend.kind = list == &found ? PersonCorrection::Kind::kOtherPerson : PersonCorrection::Kind::kNobody;
-        mends_.push_back(mend);
+        PersonCorrection& correction = (*list)[c];
+        correction.frames.erase(std::unique(correction.frames.begin(), correction.frames.end()),
+                                correction.frames.end());
+        if (correction.frames.empty()) continue;
+        correction.camera = c;
+        correction.kind = list == &found ? PersonCorrection::Kind::kOtherPerson : PersonCorrection::Kind::kNobody;
+        corrections_.push_back(correction);
       }
     }
   }
@@ -360,8 +361,8 @@ class Mender {
         const bool arm = flips_[0][c][frame], leg = flips_[1][c][frame];
         if (arm || leg) (arm && leg ? both : arm ? arms : legs).frames.push_back(frame);
       }
-      for (PersonCorrection* mend : {&both, &arms, &legs}) {
-        if (!mend->frames.empty()) mends_.push_back(std::move(*mend));
+      for (PersonCorrection* correction : {&both, &arms, &legs}) {
+        if (!correction->frames.empty()) corrections_.push_back(std::move(*correction));
       }
     }
   }
@@ -374,7 +375,7 @@ class Mender {
   std::size_t frames_ = 0;
   double scale_px_ = 1;
   std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< true if swapped; [group][camera][frame]
-  std::vector<PersonCorrection> mends_;
+  std::vector<PersonCorrection> corrections_;
 };
 
 }  // namespace
@@ -388,7 +389,7 @@ SeenPerson WithSidesSwapped(const SeenPerson& person) {
 std::vector<PersonCorrection> CorrectPerson(std::span<const ProjectionMatrix> cameras,
                                             std::span<const SeenPeople> people, double min_confidence,
                                             MatchedPerson& person) {
-  return Mender(cameras, people, min_confidence, person).Run();
+  return PersonCorrector(cameras, people, min_confidence, person).Run();
 }
 
 double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double min_confidence,

@@ -36,8 +36,8 @@ struct PersonCorrection {
 /// with the other cameras' keypoints; their cost is Geman–McClure's loss of the epipolar distance, with a scale of
 /// twice the residuals' standard deviation. The cheapest sequence of labellings is taken (Viterbi; a change of the
 /// labelling costs 1.5). The camera whose new labels lower the cost most is corrected first. With two cameras, only
-/// the facing direction shows which camera was wrong: toes are in front of heels or ankles, the nose is in front of
-/// the ears. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
+/// the body's front shows which camera was wrong: toes are in front of the shanks, or else the nose is in front of the
+/// trunk. If the body faces the wrong way in nine tenths of the frames, sides are swapped in all cameras.
 std::vector<PersonCorrection> CorrectPerson(std::span<const ProjectionMatrix> cameras,
                                             std::span<const SeenPeople> people, double min_confidence,
                                             MatchedPerson& person);

@@ -175,9 +175,9 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   // Mend the keypoints if requested, then triangulate.
   MatchedPerson& wanted = person.people[in_space[options.person]];
   TriangulateOptions triangulate = options.triangulate;
-  if (options.mends) {
+  if (options.corrects) {
     const double least = triangulate.min_confidence;
-    person.mends = CorrectPerson(cameras, people, least, wanted);
+    person.corrections = CorrectPerson(cameras, people, least, wanted);
     triangulate.robust.outlier_px =
         OutlierLimit(cameras, wanted, least, options.min_outlier_px, triangulate.robust.outlier_px);
   }

@@ -46,7 +46,7 @@ struct RecoverPersonOptions {
   double max_gap_s = 0.5;  ///< maximum length of gaps that are filled
   double cutoff_hz = 0;    ///< cutoff of the low-pass filter of positions; 0 turns it off
   /// If true, CorrectPerson is run, and `triangulate.robust.outlier_px` is the upper limit of OutlierLimit.
-  bool mends = false;
+  bool corrects = false;
   double min_outlier_px = 0;  ///< lower limit of OutlierLimit, pixels
 };
 
@@ -61,7 +61,7 @@ struct RecoveredPerson {
   /// Positions of the requested person's landmarks. `FitLocated` fills their gaps and smooths them.
   std::vector<LandmarkPositions> landmarks;
   TriangulationReport report;
-  std::vector<PersonCorrection> mends;  ///< corrections of the requested person's keypoints
+  std::vector<PersonCorrection> corrections;  ///< corrections of the requested person's keypoints
   double outlier_px = 0;    ///< the threshold for outliers that was used, pixels
   CaptureBody body;
   std::vector<TreeState> states;  ///< poses of the body, one per frame

@@ -33,9 +33,10 @@ glm::dvec3 MedianOfJoints(const PoseSteps& vectors) {
 
 /// Returns how far the first step of each joint (`end` = 0), or the last one, differs from the step that its three
 /// neighbours suggest: the shortest of its differences from each of these neighbours and from the linear continuation
-/// of the two nearest ones. If only the step at the end contains a displacement, all four differences contain it. If a
-/// neighbour contains a displacement, at least one of the differences does not. The shortest difference is chosen for
-/// the whole body (the median of the joints), and for each joint's motion relative to the body.
+/// of the two nearest ones. If only the step at the end contains a displacement, all four differences contain it. If
+/// one of the neighbours contains a displacement, at least one of the differences is without it. The shortest
+/// difference is chosen for the whole body (the median of the joints), and for each joint's motion relative to the
+/// body.
 PoseSteps DifferencesAtEnd(const BodyMotion& motion, int end) {
   std::array<PoseSteps, 4> steps, differences;
   for (int i = 0; i < 4; ++i) steps[static_cast<std::size_t>(i)] = StepsFrom(motion, end == 0 ? i : end - i);

@@ -2,9 +2,9 @@
 
 namespace etude {
 
-/// Makes memory cheap that this process allocates and frees repeatedly: the C library keeps up to 64 MiB of freed
-/// memory, and the kernel provides the first 62 MiB in large pages. Otherwise, getting new pages, which the kernel
-/// fills with zeros, would take a quarter of the time of reading files, and more than half of it on virtual machines.
+/// Shortens the time in which this process gets memory: the C library keeps up to 64 MiB of freed memory, and the
+/// kernel may provide the first 62 MiB in large pages. Otherwise, getting new pages, which the kernel fills with zeros,
+/// takes a quarter of the time of reading files, and on a virtual machine more than half of it.
 void PrepareHeap();
 
 }  // namespace etude

@@ -81,16 +81,16 @@ std::string_view TruthName(Truth truth) {
   return kNames[static_cast<std::size_t>(truth)];
 }
 
-Truth TruthOf(const PerformanceDeviation& stray, const StrayLimits& limits) {
+Truth TruthOf(const PerformanceDeviation& deviation, const DeviationLimits& limits) {
   const auto is_within = [&](const PerformanceDeviation& limit) {
-    return stray.limb_deg <= limit.limb_deg && stray.timing_beats <= limit.timing_beats;
+    return deviation.limb_deg <= limit.limb_deg && deviation.timing_beats <= limit.timing_beats;
   };
   if (is_within(limits.right)) return Truth::kRight;
   return is_within(limits.wrong) ? Truth::kGrey : Truth::kWrong;
 }
 
-double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
-                    const std::function<BodyPose(double share)>& danced) {
+double LimbDeviationDeg(const std::function<BodyPose(double share)>& meant,
+                        const std::function<BodyPose(double share)>& danced) {
   constexpr int kShares = 32;
   std::array<double, kStrayLimbs> squares{};
   for (int k = 0; k < kShares; ++k) {
@@ -103,8 +103,8 @@ double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
   return std::sqrt(*std::ranges::max_element(squares));
 }
 
-double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
-                        double beats) {
+double TimingDeviationBeats(const std::function<double(double due)>& meant,
+                            const std::function<double(double due)>& danced, double beats) {
   constexpr int kMoments = 64;
   double square = 0;
   for (int k = 0; k < kMoments; ++k) {

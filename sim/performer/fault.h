@@ -68,24 +68,24 @@ enum class Truth {
 /// Returns "right", "grey" or "wrong".
 std::string_view TruthName(Truth truth);
 
-/// The limits of a stray. A performance is right up to `right`, wrong above `wrong`, and grey between them (ours).
-struct StrayLimits {
+/// The limits of a deviation. A performance is right up to `right`, wrong above `wrong`, and grey between them (ours).
+struct DeviationLimits {
   PerformanceDeviation right{.limb_deg = 12, .timing_beats = 0.25};
   PerformanceDeviation wrong{.limb_deg = 25, .timing_beats = 0.5};
 };
 
-/// Returns kRight if both measures of the stray are within `limits.right`, kWrong if at least one exceeds its value in
-/// `limits.wrong`, and kGrey otherwise.
-Truth TruthOf(const PerformanceDeviation& stray, const StrayLimits& limits = {});
+/// Returns kRight if both measures of the deviation are within `limits.right`, kWrong if at least one exceeds its value
+/// in `limits.wrong`, and kGrey otherwise.
+Truth TruthOf(const PerformanceDeviation& deviation, const DeviationLimits& limits = {});
 
 /// Computes `PerformanceDeviation::limb_deg` by comparing the meant and the danced pose at 32 shares of the
 /// performance.
-double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
-                    const std::function<BodyPose(double share)>& danced);
+double LimbDeviationDeg(const std::function<BodyPose(double share)>& meant,
+                        const std::function<BodyPose(double share)>& danced);
 /// Computes `PerformanceDeviation::timing_beats`; the performance lasts `beats` beats. Each function maps a time, in
 /// [0, 1] of the performance's length, to the share of the performance that is reached at that time, clamped to [0, 1].
 /// Both functions are sampled at 64 times.
-double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
-                        double beats);
+double TimingDeviationBeats(const std::function<double(double due)>& meant,
+                            const std::function<double(double due)>& danced, double beats);
 
 }  // namespace etude

@@ -270,8 +270,8 @@ void Learner::Begin(const Shown& shown) {
   layer.vigour = VigourAfter(person_, danced_s_);
   layer.beats = {shown.beat};
   layer.performance = performances_.size() - 1;
-  event.stray = layer.rendition->Deviation();
-  event.truth = TruthOf(event.stray);
+  event.deviation = layer.rendition->Deviation();
+  event.truth = TruthOf(event.deviation);
   layers_.push_back(std::move(layer));
 }
 

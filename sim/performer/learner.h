@@ -53,8 +53,8 @@ struct LearnerPerformance {
   int attempt = 0;       ///< number of the attempt at this move, from 0; the key of the attempt's random numbers
   bool is_over = false;  ///< true once the coach shows something else
   bool is_cut = false;   ///< true if the coach stopped the performance before its last beat, so it is not judged
-  /// The event; faults, stray and truth are known from the first frame of the performance on. `end_s` is an estimate
-  /// until the performance is over; `first_right_s` is set when the last key beat is performed.
+  /// The event; faults, deviation and truth are known from the first frame of the performance on. `end_s` is an
+  /// estimate until the performance is over; `first_right_s` is set when the last key beat is performed.
   SessionEvent event;
 };
 

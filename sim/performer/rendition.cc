@@ -179,9 +179,9 @@ PerformanceDeviation Rendition::Deviation() const {
   const Controls rest = RestOf(meant_->person());
   const auto meant = [&](double share) { return PoseOf(Meant(share), body); };
   const auto danced = [&](double share) { return PoseOf(Mix(rest, Danced(share), Presence(share)), body); };
-  return {.limb_deg = LimbStrayDeg(meant, danced),
-          .timing_beats = TimingStrayBeats([&](double due) { return MeantShare(due); },
-                                           [&](double due) { return DancedShare(due); }, meant_->move().beats)};
+  return {.limb_deg = LimbDeviationDeg(meant, danced),
+          .timing_beats = TimingDeviationBeats([&](double due) { return MeantShare(due); },
+                                               [&](double due) { return DancedShare(due); }, meant_->move().beats)};
 }
 
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
@@ -194,7 +194,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
   if (fault.fault == Fault::kWrongSide) {
     const auto shifted = [&](double share) { return PoseOf(rendition.Meant(share + 0.5)); };
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };
-    if (TruthOf({.limb_deg = LimbStrayDeg(shifted, mirrored)}) != Truth::kWrong) return false;
+    if (TruthOf({.limb_deg = LimbDeviationDeg(shifted, mirrored)}) != Truth::kWrong) return false;
   }
   return TruthOf(rendition.Deviation()) == Truth::kWrong;
 }

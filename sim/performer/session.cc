@@ -175,8 +175,8 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
   // Judge every event.
   for (std::size_t i = 0; i < dances.size(); ++i) {
     SessionEvent& event = performance.events[i];
-    event.stray = dances[i].Deviation();
-    event.truth = TruthOf(event.stray);
+    event.deviation = dances[i].Deviation();
+    event.truth = TruthOf(event.deviation);
     if (event.IsRight()) event.first_right_s = dances[i].TimeOf(FindByName(moves, event.move)->key_poses.back().beat);
   }
   return performance;

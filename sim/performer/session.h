@@ -32,8 +32,8 @@ struct SessionEvent {
   double start_s = 0;                    ///< time of the first requested beat
   double end_s = 0;                      ///< time of the last beat, as this person means to dance this beat
   Chance chance = {};                    ///< random variation of this performance
-  PerformanceDeviation stray;            ///< truth: deviation from what was meant
-  Truth truth = Truth::kRight;           ///< the judgement that follows from `stray`
+  PerformanceDeviation deviation;        ///< truth: deviation from what was meant
+  Truth truth = Truth::kRight;           ///< the judgement that follows from `deviation`
   /// For right events only: the time at which the move's last key beat was performed. This time is computed from the
   /// timing of the choreography and of the person, not from poses.
   std::optional<double> first_right_s = {};

@@ -42,7 +42,7 @@ for line in sys.stdin:
             answer = {"value": "much"}
         if manner == "percent":
             answer = {"value": 50}
-        if manner == "huge":
+        if manner in ("huge", "huge_share"):
             answer = {"value": 1e308}
         if manner == "falls" and problem["tracks"][0]["poses"]:
             sys.exit("about to fall")
@@ -69,7 +69,8 @@ for line in sys.stdin:
 VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
 BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is neither a number nor null',
        "falls": "about to fall", "percent": "value: 50; allowed, because of the metric's key 'reads': 0 to 1",
-       "huge": "value: 1e+308; allowed: -1e100 to 1e100"}
+       "huge": "value: 1e+308; allowed: -1e100 to 1e100",
+       "huge_share": "value: 1e+308; allowed, because of the metric's key 'reads': 0 to 1"}
 
 
 # The mean distance of the joints of task evaluation, mm; its cells have the files' own joints, and no tracks of ours.
@@ -96,7 +97,7 @@ def vector(expected, more=""):
 
 # The metrics of most tests: good ones, one that looks around slowly, and bad ones.
 ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 2" + vector(250)) + own("looks", "looks") + \
-      "".join(own(name, name, {"absent": vector("null"), "percent": ", reads: share"}.get(name, "")) for name in BAD) + \
+      "".join(own(name, name, {"absent": vector("null"), "percent": ", reads: share", "huge_share": ", reads: share"}.get(name, "")) for name in BAD) + \
       "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
 
 

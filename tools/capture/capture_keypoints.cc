@@ -38,7 +38,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
       0.004;  // share of the picture's longer side; rounding and lens distortion cause errors up to this size
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
-  recover.mends = recover.match.may_be_swapped = true;
+  recover.corrections = recover.match.may_be_swapped = true;
   return recover;
 }
 
@@ -155,8 +155,9 @@ bool HangsMirrored(const RecoveredPerson& person, std::size_t cameras) {
   }
   for (std::size_t camera = 0; camera < cameras; ++camera) {
     std::size_t frames = 0;
-    for (const PersonCorrection& mend : person.mends) {
-      if (mend.camera == camera && mend.kind == PersonCorrection::Kind::kSwappedSides) frames += mend.frames.size();
+    for (const PersonCorrection& correction : person.corrections) {
+      if (correction.camera == camera && correction.kind == PersonCorrection::Kind::kSwappedSides)
+        frames += correction.frames.size();
     }
     exchanged += static_cast<double>(frames) > kMostly * static_cast<double>(person.landmarks.size());
   }
@@ -276,7 +277,7 @@ Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(const RecoveredPerson person, LocatePerson(films.cameras, films.people, recover));
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
-  TellMends(person, chosen, session.views, films.told);
+  TellCorrections(person, chosen, session.views, films.told);
   const auto noise =
       MeasureKeypointNoise(films.cameras, person.people[chosen], recover.triangulate.min_confidence, person.outlier_px);
   if (!noise) return Fail({options.keypoints}, "no keypoint is seen by two cameras that agree on its position");
@@ -327,7 +328,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   }
   // Report the people, the repairs, the doubts and the residuals.
   options.listener.print(PeopleText(person, views));
-  TellMends(person, chosen, views, films.told);
+  TellCorrections(person, chosen, views, films.told);
   TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
   std::vector<JointPositions> joints;
   for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));

@@ -65,8 +65,8 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
 
 /// Reports repairs of a person's keypoints and remaining doubts, one line each.
 /// @param chosen index, into the person's `people`, of the captured person
-void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
-               MessageLog& told);
+void TellCorrections(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
+                     MessageLog& told);
 
 /// Returns the names and values, metres, of the limb lengths that reports show.
 std::vector<std::pair<std::string, double>> ShownLengths(const LimbLengths& lengths);

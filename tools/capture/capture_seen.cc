@@ -347,15 +347,15 @@ Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPers
   return films;
 }
 
-constexpr Named<PersonCorrection::Kind> kMends[] = {
+constexpr Named<PersonCorrection::Kind> kCorrections[] = {
     {"left and right were exchanged", PersonCorrection::Kind::kSwappedSides},
     {"left and right of face and arms were exchanged", PersonCorrection::Kind::kSwappedArms},
     {"left and right of hips and legs were exchanged", PersonCorrection::Kind::kSwappedLegs},
     {"keypoints of another person were replaced by the person's own", PersonCorrection::Kind::kOtherPerson},
     {"keypoints of another person were left out", PersonCorrection::Kind::kNobody}};
 
-void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
-               MessageLog& told) {
+void TellCorrections(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
+                     MessageLog& told) {
   // Report films in which nobody matches the person.
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto is_seen = [](const auto& seen) { return seen.has_value(); };
@@ -366,9 +366,9 @@ void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vec
                     views[i].camera.name));
   }
   // Report repairs: exchanged sides and exchanged people.
-  for (const PersonCorrection& mend : person.mends) {
-    told.Tell(fmt::format("corrected: {}: {}, frames {}", views[mend.camera].camera.name,
-                          NameOfValue(kMends, mend.kind), FramesText(mend.frames)));
+  for (const PersonCorrection& correction : person.corrections) {
+    told.Tell(fmt::format("corrected: {}: {}, frames {}", views[correction.camera].camera.name,
+                          NameOfValue(kCorrections, correction.kind), FramesText(correction.frames)));
   }
   // Report cameras that disagree with the others, and large triangulation errors.
   constexpr double kDoubtful = 0.1;

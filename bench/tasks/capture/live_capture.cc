@@ -64,7 +64,7 @@ std::optional<RecoveredFrame> LiveCapture::Recover(std::size_t frame) {
 
 std::optional<RecoveredFrame> LiveCapture::RecoverByMarks(std::size_t frame,
                                                           const std::vector<TakeCameras::Picture>& pictures) {
-  if (!marks_) marks_.emplace(*body_, RecoverOptionsOf(method_), LiveBridgeOptions(options_));
+  if (!marks_) marks_.emplace(*body_, RecoverOptionsOf(method_), LiveGapOptions(options_));
   const BodyPose& truth = stages_.world().truth[frame];
   std::vector<std::vector<Marks>> marks;
   for (std::size_t camera = 0; camera < pictures.size(); ++camera) {

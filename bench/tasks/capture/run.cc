@@ -22,7 +22,7 @@ MeasureInputs PicturesOf(const CaptureRun& run) {
   return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
-/// Returns the joints of every frame, smoothed if the method smooths, else with gaps bridged. Joints may be missing
+/// Returns the joints of every frame, smoothed if the method smooths, else with gaps filled. Joints may be missing
 /// before the first observation.
 std::vector<OptionalJoints> JointsOf(const CaptureRun& run) {
   if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
@@ -52,7 +52,7 @@ class PosedFrames {
 
 /// Recovers each frame from the marks up to that frame. Frames without marks repeat the last skeleton.
 void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
-  LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
+  LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveGapOptions(stages.options()));
   for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {
     if (stages.marked()[k]) {
       KnownAngles known;
@@ -224,12 +224,12 @@ const Observation& ObservationBy(const Take& take, const PersonSource& source) {
 
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method) { return {.solver = method.solver, .ik = method.ik}; }
 
-BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
+GapOptions LiveGapOptions(const StudioOptions& options) {
   const int frames = std::lcm(options.mark_every, options.picture_every);
-  BridgeOptions bridge;
-  bridge.max_gap = std::max(1, bridge.max_gap / frames);
-  bridge.turn_per_frame *= frames;
-  return bridge;
+  GapOptions gaps;
+  gaps.max_gap = std::max(1, gaps.max_gap / frames);
+  gaps.turn_per_frame *= frames;
+  return gaps;
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {

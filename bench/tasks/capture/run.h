@@ -29,7 +29,7 @@ RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
 /// Returns the options for bridging gaps in a live method. A live method receives marked frames only, so the options
 /// count marked frames instead of all frames. `max_gap` is therefore smaller, and `turn_per_frame` larger.
-BridgeOptions LiveBridgeOptions(const StudioOptions& options);
+GapOptions LiveGapOptions(const StudioOptions& options);
 
 /// Returns the body with which a method begins. Its limb lengths are known, or are measured from the marks. Fails, with
 /// the reason, if no body can be made.

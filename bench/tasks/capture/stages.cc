@@ -119,13 +119,14 @@ std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std
 }
 
 MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<std::vector<Marks>> marks,
-                         std::span<const KnownMeasurement> known, const BridgeOptions& bridge) {
-  // Measure limb directions and end effectors in each frame, bridge gaps between frames, and triangulate all joints.
+                         std::span<const KnownMeasurement> known, const GapOptions& gaps) {
+  // Measure limb directions and end effectors in each frame, interpolate gaps between frames, and triangulate all
+  // joints.
   MeasuredTake take;
   take.marks = std::move(marks);
   const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};
   take.frames = MeasureFrames(inputs);
-  take.seen = InterpolateGaps(take.frames, bridge);
+  take.seen = InterpolateGaps(take.frames, gaps);
   take.joints = MeasureJoints(inputs);
   Digest directions, points;
   for (const FrameMeasurement& frame : take.frames) {
@@ -225,8 +226,8 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
     if (method.sync == Sync::kEstimated) marks = Synchronised(marks, EstimateOffsets(cameras.matrices, marks));
     if (method.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras.matrices, marks);
     const int every = std::lcm(options_.mark_every, options_.picture_every);
-    const BridgeOptions bridge{.max_gap = std::max(BridgeOptions{}.max_gap, every)};
-    kept = measured_.emplace(choice, MeasureTake(cameras.matrices, std::move(marks), known, bridge)).first;
+    const GapOptions gaps{.max_gap = std::max(GapOptions{}.max_gap, every)};
+    kept = measured_.emplace(choice, MeasureTake(cameras.matrices, std::move(marks), known, gaps)).first;
   }
   return kept->second;
 }

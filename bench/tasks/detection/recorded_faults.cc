@@ -119,7 +119,7 @@ Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const La
       return PoseOf(stream.frames[static_cast<std::size_t>(std::lround(share * last))]);
     };
   };
-  return TruthOf({.limb_deg = LimbStrayDeg(pose_of(meant), pose_of(danced))});
+  return TruthOf({.limb_deg = LimbDeviationDeg(pose_of(meant), pose_of(danced))});
 }
 
 }  // namespace etude

@@ -17,8 +17,8 @@ std::span<const Fault> MadeFaults();
 NamedStream WithFault(const NamedStream& right, Fault fault);
 
 /// Returns the truth about a right performance after this fault: still right, grey or wrong. The limits are those for
-/// simulated people (StrayLimits), applied to the angles of the limb that deviates most. For a wrong side, dynamic time
-/// warping first aligns the performances in time, so that an additional step of a walk does not count. After
+/// simulated people (DeviationLimits), applied to the angles of the limb that deviates most. For a wrong side, dynamic
+/// time warping first aligns the performances in time, so that an additional step of a walk does not count. After
 /// `Fault::kWrongMove`, the truth is always wrong.
 Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const LabelledPart& part, Fault fault);
 

@@ -145,7 +145,7 @@ TEST(Gate, FailsIfAnAnswerFlipsAlthoughNoMethodGotWorse) {
     const auto report = JudgeRun(run(gain), &baseline, "b.json");
     EXPECT_TRUE(std::ranges::none_of(report->comparison.moves, IsRegression));
     std::vector<std::string> told;
-    for (const WorsenedAnswer& one : report->fallen) told.push_back(DescribeFallen(one));
+    for (const WorsenedAnswer& one : report->worsened) told.push_back(DescribeWorsened(one));
     return std::pair(told, GateVerdictOf(*report));
   };
   EXPECT_THAT(fallen_of(2), testing::Pair(ElementsAre("s, joint_noise_deg=1: b against a: better before, now worse",

@@ -69,11 +69,10 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
     MeasureOptions measure;
     if (k > 2) measure = {.min_plane_angle = Radians(25), .min_stroke_px = 40};
     const auto frames = MeasureFrames({.cameras = cameras, .marks = marks}, measure);
-    const BridgeOptions bridge =
-        k % 2 ? BridgeOptions{.max_gap = 1, .mark_error_px = 6, .turn_per_frame = 0.2} : BridgeOptions();
-    const auto seen = InterpolateGaps(frames, bridge);
+    const GapOptions gaps = k % 2 ? GapOptions{.max_gap = 1, .mark_error_px = 6, .turn_per_frame = 0.2} : GapOptions();
+    const auto seen = InterpolateGaps(frames, gaps);
     for (const auto& observation : seen) AddSeen(print, observation);
-    AddSeen(print, ExtrapolateLast(std::span(frames).first(7), bridge));
+    AddSeen(print, ExtrapolateLast(std::span(frames).first(7), gaps));
     const CaptureBody body = k < 4 ? PaperBody({}) : FittedBody(JointedRestBody()).value();
     RecoverOptions options{.solver = FindIkSolver(k % 3 ? "damped-least-squares" : "ccd"), .ik = {}};
     if (k % 2) options.ik.max_iterations = 3;

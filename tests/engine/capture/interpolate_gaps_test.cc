@@ -29,13 +29,13 @@ TEST(InterpolateGaps, TurnsDirectionsEvenlyAndMovesPointsStraight) {
   frames[0].directions[Index(Role::kHead)] = start;
   frames[3] = last;
   *frames[3].ends[Index(Role::kLeftHand)] += glm::dvec3(0.3, 0, 0);
-  const auto bridged = InterpolateGaps(frames, {.max_gap = 3});
+  const auto filled = InterpolateGaps(frames, {.max_gap = 3});
   for (int k = 0; k < 4; ++k) {
-    ASSERT_TRUE(bridged[k]) << k;
-    const glm::dvec3 head = bridged[k]->directions[Index(Role::kHead)];
+    ASSERT_TRUE(filled[k]) << k;
+    const glm::dvec3 head = filled[k]->directions[Index(Role::kHead)];
     EXPECT_NEAR(Degrees(AngleBetween(head, start)), 30 * k, 1e-9);
     EXPECT_NEAR(glm::length(head), 1, 1e-12);
-    const glm::dvec3 moved = bridged[k]->ends[Role::kLeftHand] - *first.ends[Index(Role::kLeftHand)];
+    const glm::dvec3 moved = filled[k]->ends[Role::kLeftHand] - *first.ends[Index(Role::kLeftHand)];
     EXPECT_NEAR(moved.x, 0.1 * k, 1e-12);
   }
 }
@@ -45,16 +45,16 @@ TEST(InterpolateGaps, TakesTheNearerOfTwoOppositeDirections) {
   frames[0] = frames[5] = WholeMeasurement();
   frames[0].directions[Index(Role::kHead)] = glm::dvec3(0, 1, 0);
   frames[5].directions[Index(Role::kHead)] = glm::dvec3(0, -1, 0);
-  const auto bridged = InterpolateGaps(frames);
-  for (int k = 0; k < 6; ++k) EXPECT_EQ(bridged[k]->directions[Index(Role::kHead)].y, k < 3 ? 1 : -1) << k;
+  const auto filled = InterpolateGaps(frames);
+  for (int k = 0; k < 6; ++k) EXPECT_EQ(filled[k]->directions[Index(Role::kHead)].y, k < 3 ? 1 : -1) << k;
 }
 
 TEST(InterpolateGaps, HoldsTheNearestValueAndGivesUpBeyondTheLongestGap) {
   std::vector<FrameMeasurement> frames(10);
   frames[4] = WholeMeasurement();
-  const auto bridged = InterpolateGaps(frames, {.max_gap = 2});
-  for (int k = 0; k < 10; ++k) EXPECT_EQ(bridged[k].has_value(), k >= 2 && k <= 6) << k;
-  EXPECT_EQ(bridged[2]->ends[Role::kHead], *frames[4].ends[Index(Role::kHead)]);
+  const auto filled = InterpolateGaps(frames, {.max_gap = 2});
+  for (int k = 0; k < 10; ++k) EXPECT_EQ(filled[k].has_value(), k >= 2 && k <= 6) << k;
+  EXPECT_EQ(filled[2]->ends[Role::kHead], *frames[4].ends[Index(Role::kHead)]);
 }
 
 TEST(InterpolateGaps, SaysWhatAFrameLacksAndKeepsTheRest) {
@@ -89,7 +89,7 @@ TEST(InterpolateGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
 // One plane: the minimiser of (N·d)²/ε² + |d − b|²/τ² is b − N (N·b) / (1 + ε²/τ²), normalised.
 TEST(InterpolateGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
   const std::size_t head = Index(Role::kHead);
-  const BridgeOptions options{.mark_error_px = 2, .turn_per_frame = Radians(3)};
+  const GapOptions options{.mark_error_px = 2, .turn_per_frame = Radians(3)};
   for (const int gap : {1, 4}) {
     for (const double length_px : {40.0, 3.0}) {
       std::vector<FrameMeasurement> frames(2 * static_cast<std::size_t>(gap) + 1);
@@ -141,8 +141,8 @@ TEST(InterpolateGaps, TakesALimbThatNothingElseTellsOfForUnforeshortened) {
 TEST(InterpolateGaps, OneNearNeighbourIsEnoughAndHalfASecondTheDefault) {
   std::vector<FrameMeasurement> frames(40);
   frames[0] = frames[39] = WholeMeasurement();
-  const auto bridged = InterpolateGaps(frames);
-  for (int k = 0; k < 40; ++k) EXPECT_EQ(bridged[k].has_value(), k <= 15 || k >= 24) << k;
+  const auto filled = InterpolateGaps(frames);
+  for (int k = 0; k < 40; ++k) EXPECT_EQ(filled[k].has_value(), k <= 15 || k >= 24) << k;
 }
 
 TEST(InterpolateGaps, OfNoFramesIsNone) { EXPECT_TRUE(InterpolateGaps({}).empty()); }

@@ -33,13 +33,13 @@ struct CapturedMotion {
 /// Runs the stages in sequence, as the task `capture` does.
 struct Stages {
   MeasureOptions measure;
-  BridgeOptions bridge;
+  GapOptions gaps;
   RecoverOptions recover;
 
   CapturedMotion Run(const MeasureInputs& pictures, const CaptureBody& body,
                      const std::vector<bool>& marked = {}) const {
     CapturedMotion motion{.measured = MeasureFrames(pictures, measure)};
-    motion.seen = InterpolateGaps(motion.measured, bridge);
+    motion.seen = InterpolateGaps(motion.measured, gaps);
     motion.frames = RecoverFrames({.body = body, .seen = motion.seen, .marked = marked}, recover);
     return motion;
   }
@@ -96,7 +96,7 @@ struct Studio {
 
 TEST(MarkedTake, HasASkeletonAsLongAsThereAreMarks) {
   Studio studio;
-  studio.stages.bridge.max_gap = 2;
+  studio.stages.gaps.max_gap = 2;
   studio.marked.assign(6, true);
   for (std::size_t k = 1; k < 6; ++k) {
     studio.marks[0][k].effectors[0].reset();

@@ -185,7 +185,7 @@ TEST(LiveRecovery, IsNotChangedByLaterFramesAsTheWholeTakeIs) {
 
 TEST(ExtrapolateLast, IsWhatGapsAreBridgedWithWhenNothingFollowsHoweverFewFramesAreKept) {
   auto measured = Measured(0.1, {3, 4, 9, 10, 11});
-  const BridgeOptions options{.max_gap = 3};
+  const GapOptions options{.max_gap = 3};
   for (std::size_t count = 1; count <= measured.size(); ++count) {
     const std::span<const FrameMeasurement> first(measured.data(), count);
     const auto last = ExtrapolateLast(first, options), whole = InterpolateGaps(first, options).back();

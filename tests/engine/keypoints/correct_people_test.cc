@@ -16,24 +16,24 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr std::size_t kMendedFrames = 50;
+constexpr std::size_t kTakeFrames = 50;
 
 /// A walker seen by some cameras, with another person behind; `person` is the walker.
-struct MendedTake {
+struct CorrectedTake {
   std::vector<ProjectionMatrix> cameras;
   std::vector<SeenPeople> people;
   MatchedPerson person, truth;
 
   using Figure = std::function<LandmarkPositions(double x, double z, double seconds)>;
 
-  explicit MendedTake(std::size_t count, double sigma_px = 1, const Figure& figure = Walker) {
+  explicit CorrectedTake(std::size_t count, double sigma_px = 1, const Figure& figure = Walker) {
     RandomStream dice = WalkersDice("mended");
     const std::vector<Camera> all = Pinholes();
     for (std::size_t c = 0; c < count; ++c) {
       cameras.push_back(MatrixOf(all[c]));
-      people.emplace_back(kMendedFrames);
-      person.seen.emplace_back(kMendedFrames);
-      for (std::size_t k = 0; k < kMendedFrames; ++k) {
+      people.emplace_back(kTakeFrames);
+      person.seen.emplace_back(kTakeFrames);
+      for (std::size_t k = 0; k < kTakeFrames; ++k) {
         const double t = static_cast<double>(k) / 30;
         people[c][k] = {Seen(all[c], Walker(0.7, 0.2, t + 0.4), sigma_px, dice),
                         Seen(all[c], figure(-0.5, 0, t), sigma_px, dice)};
@@ -49,7 +49,7 @@ struct MendedTake {
   std::size_t Wrong() const {
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      for (std::size_t k = 0; k < kMendedFrames; ++k) {
+      for (std::size_t k = 0; k < kTakeFrames; ++k) {
         const auto &now = person.seen[c][k], &then = truth.seen[c][k];
         bool is_same = now.has_value() == then.has_value();
         for (std::size_t i = 0; is_same && now && i < kLandmarkCount; ++i) {
@@ -103,7 +103,7 @@ TEST(OtherSide, ExchangesNamesThatBeginWithASide) {
 TEST(CorrectPerson, LeavesWhatIsRightAlone) {
   for (const std::size_t cameras : {2u, 3u, 4u}) {
     for (const double sigma_px : {0.0, 4.0}) {
-      MendedTake take(cameras, sigma_px);
+      CorrectedTake take(cameras, sigma_px);
       EXPECT_THAT(take.Run(), IsEmpty()) << cameras << " cameras, " << sigma_px << " px";
       EXPECT_EQ(take.Wrong(), 0u);
     }
@@ -116,16 +116,16 @@ TEST(CorrectPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
        {std::tuple(true, true, kSwappedSides), {true, false, kSwappedLegs}, {false, true, kSwappedArms}}) {
     for (const std::size_t cameras : {2u, 4u}) {  // with two cameras, only the facing shows which one was wrong
       for (const std::size_t camera : {0u, 1u}) {
-        MendedTake take(cameras);
+        CorrectedTake take(cameras);
         for (std::size_t k = 20; k < 40; ++k) {
           take.person.seen[camera][k] = Exchanged(*take.person.seen[camera][k], legs, arms);
         }
         EXPECT_EQ(take.Wrong(), 20u) << "the control";
-        const auto mends = take.Run();
-        ASSERT_THAT(mends, SizeIs(1)) << cameras << " cameras, wrong in " << camera;
-        EXPECT_EQ(mends[0].kind, kind);
-        EXPECT_EQ(mends[0].camera, camera);
-        EXPECT_EQ(mends[0].frames, FramesFrom(20, 40));
+        const auto corrections = take.Run();
+        ASSERT_THAT(corrections, SizeIs(1)) << cameras << " cameras, wrong in " << camera;
+        EXPECT_EQ(corrections[0].kind, kind);
+        EXPECT_EQ(corrections[0].camera, camera);
+        EXPECT_EQ(corrections[0].frames, FramesFrom(20, 40));
         EXPECT_EQ(take.Wrong(), 0u);
       }
     }
@@ -133,15 +133,15 @@ TEST(CorrectPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
 }
 
 TEST(CorrectPerson, ToesTellWhereAllCamerasExchangedThroughout) {
-  MendedTake take(3);
+  CorrectedTake take(3);
   for (auto& camera : take.person.seen) {
     for (auto& seen : camera) seen = Exchanged(*seen, true, true);
   }
-  const auto mends = take.Run();
-  ASSERT_THAT(mends, SizeIs(3));
-  for (const PersonCorrection& mend : mends) {
-    EXPECT_EQ(mend.kind, PersonCorrection::Kind::kSwappedSides);
-    EXPECT_EQ(mend.frames, FramesFrom(0, kMendedFrames));
+  const auto corrections = take.Run();
+  ASSERT_THAT(corrections, SizeIs(3));
+  for (const PersonCorrection& correction : corrections) {
+    EXPECT_EQ(correction.kind, PersonCorrection::Kind::kSwappedSides);
+    EXPECT_EQ(correction.frames, FramesFrom(0, kTakeFrames));
   }
   EXPECT_EQ(take.Wrong(), 0u);
 }
@@ -159,7 +159,7 @@ TEST(CorrectPerson, ToesOfAKneelerPointBackwards) {
       }
       return marks;
     };
-    MendedTake take(3, 1, kneeler);
+    CorrectedTake take(3, 1, kneeler);
     EXPECT_THAT(take.Run(), IsEmpty()) << foot;
     EXPECT_EQ(take.Wrong(), 0u) << foot;
   }
@@ -167,20 +167,20 @@ TEST(CorrectPerson, ToesOfAKneelerPointBackwards) {
 
 TEST(CorrectPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
   for (const std::size_t camera : {0u, 1u}) {
-    MendedTake take(4);
+    CorrectedTake take(4);
     for (std::size_t k = 10; k < 20; ++k) take.person.seen[camera][k] = take.people[camera][k][0];
-    const auto mends = take.Run();
-    ASSERT_THAT(mends, SizeIs(1));
-    EXPECT_EQ(mends[0].kind, PersonCorrection::Kind::kOtherPerson);
-    EXPECT_EQ(mends[0].camera, camera);
-    EXPECT_EQ(mends[0].frames, FramesFrom(10, 20));
+    const auto corrections = take.Run();
+    ASSERT_THAT(corrections, SizeIs(1));
+    EXPECT_EQ(corrections[0].kind, PersonCorrection::Kind::kOtherPerson);
+    EXPECT_EQ(corrections[0].camera, camera);
+    EXPECT_EQ(corrections[0].frames, FramesFrom(10, 20));
     EXPECT_EQ(take.Wrong(), 0u);
   }
 }
 
 TEST(CorrectPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
   for (const bool is_first : {true, false}) {
-    MendedTake take(4);
+    CorrectedTake take(4);
     for (std::size_t k = 10; k < 20; ++k) {
       // A second detection of the walker, some pixels away.
       auto& people = take.people[1][k];
@@ -196,29 +196,29 @@ TEST(CorrectPerson, OfSeveralWhoFitMuchBetterTheBestIsTaken) {
 
 TEST(CorrectPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
   for (const std::size_t cameras : {2u, 4u}) {
-    MendedTake take(cameras);
+    CorrectedTake take(cameras);
     for (std::size_t k = 10; k < 15; ++k) {
       take.people[1][k].pop_back();
       take.people[0][k].erase(take.people[0][k].begin());
       take.person.seen[1][k] = take.people[1][k][0];
       take.truth.seen[1][k].reset();
     }
-    const auto mends = take.Run();
+    const auto corrections = take.Run();
     if (cameras == 2) {
       EXPECT_EQ(take.Wrong(), 5u) << "of two nothing tells which is wrong";
       continue;
     }
-    ASSERT_THAT(mends, SizeIs(1));
-    EXPECT_EQ(mends[0].kind, PersonCorrection::Kind::kNobody);
-    EXPECT_EQ(mends[0].camera, 1u);
-    EXPECT_EQ(mends[0].frames, FramesFrom(10, 15));
+    ASSERT_THAT(corrections, SizeIs(1));
+    EXPECT_EQ(corrections[0].kind, PersonCorrection::Kind::kNobody);
+    EXPECT_EQ(corrections[0].camera, 1u);
+    EXPECT_EQ(corrections[0].frames, FramesFrom(10, 15));
     EXPECT_EQ(take.Wrong(), 0u);
   }
 }
 
 TEST(OutlierLimit, IsEightDeviationsOfTheResidualsWithinItsBounds) {
   const auto limit = [](double sigma_px, double least, double most) {
-    const MendedTake take(4, sigma_px);
+    const CorrectedTake take(4, sigma_px);
     return OutlierLimit(take.cameras, take.person, 0.1, least, most);
   };
   // The residual of four views is σ √(χ² / 4) with 8 − 3 degrees of freedom, whose median is 4.35.
@@ -227,8 +227,8 @@ TEST(OutlierLimit, IsEightDeviationsOfTheResidualsWithinItsBounds) {
   }
   EXPECT_EQ(limit(0, 7, 60), 7);
   EXPECT_EQ(limit(5, 7, 40), 40);
-  MendedTake nobody(2);
-  for (auto& camera : nobody.person.seen) camera.assign(kMendedFrames, std::nullopt);
+  CorrectedTake nobody(2);
+  for (auto& camera : nobody.person.seen) camera.assign(kTakeFrames, std::nullopt);
   EXPECT_EQ(OutlierLimit(nobody.cameras, nobody.person, 0.1, 7, 60), 60);
 }
 

@@ -18,7 +18,7 @@ void AddRecovered(Fingerprint& print, const Result<RecoveredPerson>& person) {
   if (!person) return;
   for (const LandmarkPositions& places : person->landmarks) print.Add(places);
   print.Add(person->people.size()).Add(person->report.rejected).Add(person->report.residual_px);
-  print.Add(person->report.found).Add(person->mends.size()).Add(person->outlier_px).Add(person->is_held);
+  print.Add(person->report.found).Add(person->corrections.size()).Add(person->outlier_px).Add(person->is_held);
   print.Add(person->body.bones);
   for (const TreeState& state : person->states)
     print.Add(state.root_position).Add(state.root_frame[0]).Add(state.angles);
@@ -34,7 +34,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
     const double rate_hz = k == 2 ? 50 : 30;
     const Crowd crowd(dice, k == 1 ? 21 : 14 + k, 2 + k, 0.03, rate_hz);
     RecoverPersonOptions options = DefaultRecovery(rate_hz, 1280);
-    options.mends = k % 2 == 0;
+    options.corrects = k % 2 == 0;
     options.match.may_be_swapped = true;
     options.min_outlier_px = 4;
     options.person = k == 3 ? 1 : k == 4 ? 2 : 0;

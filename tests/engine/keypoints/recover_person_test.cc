@@ -306,17 +306,17 @@ TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
   auto people = OneWalker(cameras, 0.5);
   for (std::size_t k = 10; k < 30; ++k) people[2][k][0] = WithSidesSwapped(people[2][k][0]);
   RecoverPersonOptions options = DefaultRecovery(kRate, 1280);
-  options.mends = true;
+  options.corrects = true;
   options.min_outlier_px = 3;
   ASSERT_OK(mended, Recover(cameras, people, options));
-  ASSERT_EQ(mended->mends.size(), 1u);
-  EXPECT_EQ(mended->mends[0].camera, 2u);
+  ASSERT_EQ(mended->corrections.size(), 1u);
+  EXPECT_EQ(mended->corrections[0].camera, 2u);
   EXPECT_LT(WorstOff(mended->landmarks, 0, 0, 0), 0.03);
   EXPECT_GE(mended->outlier_px, 3);
   EXPECT_LT(mended->outlier_px, 10);
-  options.mends = false;
+  options.corrects = false;
   ASSERT_OK(raw, Recover(cameras, people, options));
-  EXPECT_TRUE(raw->mends.empty());
+  EXPECT_TRUE(raw->corrections.empty());
   EXPECT_DOUBLE_EQ(raw->outlier_px, 0.03 * 1280);
   EXPECT_GT(raw->report.rejected[2], mended->report.rejected[2]) << "the control";
 }

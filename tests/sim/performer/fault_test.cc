@@ -26,29 +26,30 @@ BodyPose ArmRaised(double degrees) {
 
 TEST(PerformanceDeviation, OfOneLimbIsItsAngle) {
   const auto meant = [](double) { return ArmRaised(30); };
-  EXPECT_NEAR(LimbStrayDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
-  EXPECT_EQ(LimbStrayDeg(meant, meant), 0);
+  EXPECT_NEAR(LimbDeviationDeg(meant, [](double) { return ArmRaised(50); }), 20, 1e-6);
+  EXPECT_EQ(LimbDeviationDeg(meant, meant), 0);
   // The arm is 20° off for a quarter of the time: the RMS is 20° times the square root of a quarter.
-  EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(share < 0.25 ? 50 : 30); }), 10, 1e-6);
+  EXPECT_NEAR(LimbDeviationDeg(meant, [](double share) { return ArmRaised(share < 0.25 ? 50 : 30); }), 10, 1e-6);
   // A linear rise to 60 degrees away has the RMS 60 / √3, up to the error of 32 samples.
-  EXPECT_NEAR(LimbStrayDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3), 0.02);
+  EXPECT_NEAR(LimbDeviationDeg(meant, [](double share) { return ArmRaised(30 + 60 * share); }), 60 / std::sqrt(3),
+              0.02);
 }
 
 TEST(PerformanceDeviation, OfTheClockIsCountedInBeats) {
   const auto even = [](double due) { return due; };
-  EXPECT_EQ(TimingStrayBeats(even, even, 4), 0);
+  EXPECT_EQ(TimingDeviationBeats(even, even, 4), 0);
   // One beat of four late: the lag rises to 1 beat in the first beat, and stays 1 in the others. √((1/3 + 3) / 4).
-  EXPECT_NEAR(TimingStrayBeats(
+  EXPECT_NEAR(TimingDeviationBeats(
                   even, [](double due) { return due - 0.25; }, 4),
               std::sqrt((1.0 / 3 + 3) / 4), 1e-3);
   // A sine whose amplitude is 0.1 of the eight beats, which is 0.8 beats, has the RMS 0.8 / √2.
-  EXPECT_NEAR(TimingStrayBeats(
+  EXPECT_NEAR(TimingDeviationBeats(
                   even, [](double due) { return due + 0.1 * std::sin(kPi * due); }, 8),
               0.8 / std::sqrt(2), 1e-2);
 }
 
 TEST(PerformanceDeviation, DecidesWhatIsRightGreyAndWrong) {
-  const StrayLimits limits{.right = {10, 0.2}, .wrong = {20, 0.4}};
+  const DeviationLimits limits{.right = {10, 0.2}, .wrong = {20, 0.4}};
   EXPECT_EQ(TruthOf({10, 0.2}, limits), Truth::kRight);
   EXPECT_EQ(TruthOf({10.1, 0.2}, limits), Truth::kGrey);
   EXPECT_EQ(TruthOf({10, 0.21}, limits), Truth::kGrey);
@@ -64,15 +65,15 @@ TEST(PerformanceDeviation, IsOfThePersonsOwnMotionSoThatNoHabitIsAFault) {
     for (const Move& move : AllMoves()) {
       const Style style(person, move);
       const Rendition rendition(style, {.tempo = 0.7, .unevenness = 0.2, .ways = 9}, {});
-      const PerformanceDeviation stray = rendition.Deviation();
-      EXPECT_EQ(stray.limb_deg, 0) << move.name;
-      EXPECT_EQ(stray.timing_beats, 0) << move.name;
+      const PerformanceDeviation deviation = rendition.Deviation();
+      EXPECT_EQ(deviation.limb_deg, 0) << move.name;
+      EXPECT_EQ(deviation.timing_beats, 0) << move.name;
     }
   }
 }
 
 /// Returns a number that grows with `limb_deg` and with `timing_beats`.
-double Badness(const PerformanceDeviation& stray) { return stray.limb_deg / 25 + stray.timing_beats / 0.5; }
+double Badness(const PerformanceDeviation& deviation) { return deviation.limb_deg / 25 + deviation.timing_beats / 0.5; }
 
 TEST(PerformanceDeviation, GrowsWithTheSeverityOfEveryFault) {
   const Person person = DrawPerson({3, "stray", 2}, People::kMixed);

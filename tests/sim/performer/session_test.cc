@@ -100,7 +100,7 @@ TEST(Session, OnlyTheFaultsAskedForHappen) {
   for (const SessionEvent& event : PerformTrial(2, {.events = 22, .fault_share = 1, .faults = {Fault::kLate}}).events) {
     ASSERT_EQ(event.faults.size(), 1u);
     EXPECT_EQ(event.faults.front().fault, Fault::kLate);
-    EXPECT_EQ(event.stray.limb_deg, 0);
+    EXPECT_EQ(event.deviation.limb_deg, 0);
   }
 }
 
@@ -110,7 +110,7 @@ TEST(Session, SweepingSeverityChangesNoDice) {
   for (std::size_t i = 0; i < mild.events.size(); ++i) {
     EXPECT_EQ(FaultNames(mild.events[i].faults), FaultNames(bad.events[i].faults));
     EXPECT_EQ(mild.events[i].start_s, bad.events[i].start_s);
-    EXPECT_LE(mild.events[i].stray.limb_deg, bad.events[i].stray.limb_deg + 1e-9);
+    EXPECT_LE(mild.events[i].deviation.limb_deg, bad.events[i].deviation.limb_deg + 1e-9);
   }
 }
 

@@ -640,6 +640,13 @@ TEST(DoubtsOnPair, NameALateAndAnEarlyAnswer) {
   EXPECT_THAT(Doubts(begin, later), ElementsAre(HasSubstr("the answer seems to be 0.5 s late")));
 }
 
+TEST(DoubtsOnPair, NameNoLagIfMuchIsLeft) {
+  const auto large = [](const glm::dvec3& p) { return 4.0 * p; };
+  const RawMotion truth = Changed(Swaying(30, 150, 0), large), late = Changed(Swaying(30, 150, 0.5), large);
+  EXPECT_THAT(Doubts(truth, WithErrors(late, 0.05)), ElementsAre(HasSubstr("the answer seems to be 0.5 s late")));
+  EXPECT_THAT(Doubts(truth, WithErrors(late, 0.15)), IsEmpty());
+}
+
 TEST(DoubtsOnPair, NameExchangedSidesInsteadOfALag) {
   // A walk in place: the left joints move as the right ones, half a second later.
   RawMotion walk = Gliding(30, 180);

@@ -1,4 +1,4 @@
-#include "bench/run/sum_up.h"
+#include "bench/run/parallel_summary.h"
 
 #include <poll.h>
 #include <sys/wait.h>

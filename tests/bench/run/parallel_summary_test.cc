@@ -1,4 +1,4 @@
-#include "bench/run/sum_up.h"
+#include "bench/run/parallel_summary.h"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
