@@ -38,7 +38,7 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const 
       0.004;  // share of the picture's longer side; rounding and lens distortion cause errors up to this size
   recover.min_outlier_px = kMinOutlierShare * longer_side;
   if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.min_outlier_px = options.outlier_px;
-  recover.corrections = recover.match.may_be_swapped = true;
+  recover.corrects = recover.match.may_be_swapped = true;
   return recover;
 }
 
