@@ -16,7 +16,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr std::size_t kWalkFrames = 50;
+constexpr std::size_t kCorrectedFrames = 50;
 
 /// A walker seen by some cameras, with another person behind; `person` is the walker.
 struct CorrectedTake {
@@ -31,9 +31,9 @@ struct CorrectedTake {
     const std::vector<Camera> all = Pinholes();
     for (std::size_t c = 0; c < count; ++c) {
       cameras.push_back(MatrixOf(all[c]));
-      people.emplace_back(kWalkFrames);
-      person.seen.emplace_back(kWalkFrames);
-      for (std::size_t k = 0; k < kWalkFrames; ++k) {
+      people.emplace_back(kCorrectedFrames);
+      person.seen.emplace_back(kCorrectedFrames);
+      for (std::size_t k = 0; k < kCorrectedFrames; ++k) {
         const double t = static_cast<double>(k) / 30;
         people[c][k] = {Seen(all[c], Walker(0.7, 0.2, t + 0.4), sigma_px, dice),
                         Seen(all[c], figure(-0.5, 0, t), sigma_px, dice)};
@@ -49,7 +49,7 @@ struct CorrectedTake {
   std::size_t Wrong() const {
     std::size_t wrong = 0;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      for (std::size_t k = 0; k < kWalkFrames; ++k) {
+      for (std::size_t k = 0; k < kCorrectedFrames; ++k) {
         const auto &now = person.seen[c][k], &then = truth.seen[c][k];
         bool is_same = now.has_value() == then.has_value();
         for (std::size_t i = 0; is_same && now && i < kLandmarkCount; ++i) {
@@ -141,7 +141,7 @@ TEST(CorrectPerson, ToesTellWhereAllCamerasExchangedThroughout) {
   ASSERT_THAT(corrections, SizeIs(3));
   for (const PersonCorrection& correction : corrections) {
     EXPECT_EQ(correction.kind, PersonCorrection::Kind::kSwappedSides);
-    EXPECT_EQ(correction.frames, FramesFrom(0, kWalkFrames));
+    EXPECT_EQ(correction.frames, FramesFrom(0, kCorrectedFrames));
   }
   EXPECT_EQ(take.Wrong(), 0u);
 }
@@ -228,7 +228,7 @@ TEST(OutlierLimit, IsEightDeviationsOfTheResidualsWithinItsBounds) {
   EXPECT_EQ(limit(0, 7, 60), 7);
   EXPECT_EQ(limit(5, 7, 40), 40);
   CorrectedTake nobody(2);
-  for (auto& camera : nobody.person.seen) camera.assign(kWalkFrames, std::nullopt);
+  for (auto& camera : nobody.person.seen) camera.assign(kCorrectedFrames, std::nullopt);
   EXPECT_EQ(OutlierLimit(nobody.cameras, nobody.person, 0.1, 7, 60), 60);
 }
 
