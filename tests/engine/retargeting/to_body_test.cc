@@ -348,7 +348,7 @@ TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
 TEST(ToBodyMotion, KneesOfABackbendAreNotOverextended) {
   Clip clip = AtRest(testing::PersonSkeleton());
   LowerArms(clip, 0);
-  At(clip, 0, "Spine").rotation = Turn(-2, {1, 0, 0});
+  At(clip, 0, "Spine").rotation = Turn(-2.6, {1, 0, 0});
   for (const char* shank : {"LeftLeg", "RightLeg"}) At(clip, 0, shank).rotation = Turn(1, {1, 0, 0});
   const auto body = Convert(clip);
   ASSERT_TRUE(body) << ToString(body.error());
