@@ -286,8 +286,8 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.lag = FindLag({truth, of_truth}, {answer, of_answer}, -clock.seconds);
     if (!matched.lag) {
       return Fail({answer.name},
-                  "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, or "
-                  "the answer moves differently at every lag in that range",
+                  "no lag within ±{:g} s is found: the motion is too short, the body stands still or moves evenly, the "
+                  "answer's clock drifts, or the answer moves differently at every lag in that range",
                   kMaxTimeShift_s);
     }
   }

@@ -20,7 +20,9 @@ namespace etude {
 ///   and the answer's left and right hip are in the opposite order to the truth's hips;
 /// - time: at another rate, or after a shift, the differences of the distances between joints are at most half as
 ///   large. A shift has at least one frame and at most kMaxTimeShift_s, it leaves at most 8 cm, and FindLag must find a
-///   shift, too. If a lag was already removed (`matched.lag`), neither sides nor times are searched.
+///   shift, too. If a lag was already removed (`matched.lag`), neither sides nor shifts are searched;
+/// - clock: with shifts that change evenly or jump once, those differences are at most half as large as with any
+///   constant shift, and at most 8 cm.
 /// Limits and method are our own. `matched` holds the judged joints frame by frame. The truth's first frame is paired
 /// with the answer at `start_s`.
 std::vector<std::string> DoubtsOnPair(const JudgedSide& truth, const JudgedSide& answer, const MatchedMotions& matched,

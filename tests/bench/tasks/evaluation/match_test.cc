@@ -16,6 +16,7 @@
 namespace etude {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -668,6 +669,10 @@ TEST(DoubtsOnPair, NameExchangedSidesInsteadOfALag) {
   EXPECT_THAT(Doubts(walk, WithErrors(exchanged, 0.01)),
               ElementsAre(HasSubstr("the answer's left and right seem to be exchanged")));
   EXPECT_THAT(Doubts(walk, WithErrors(walk, 0.01)), IsEmpty());
+  // Exchanged sides from the middle on are no jump of the clock.
+  RawMotion half = exchanged;
+  std::copy_n(walk.positions.begin(), walk.positions.size() / 2, half.positions.begin());
+  EXPECT_THAT(Doubts(walk, WithErrors(half, 0.005)), IsEmpty());
   // The control: the limbs move half a cycle later, but the hips do not change places.
   RawMotion late = exchanged;
   for (const Role role : {Role::kLeftHip, Role::kLeftShoulder, Role::kLeftHand}) {
@@ -706,6 +711,41 @@ TEST(DoubtsOnPair, OfAMotionThatRepeatsNameTheSmallestShift) {
     ASSERT_TRUE(found && found->lag);
     EXPECT_NEAR(found->lag->shift_s, late_s, 0.003);
   }
+}
+
+TEST(DoubtsOnPair, NameAClockThatDrifts) {
+  const RawMotion truth = Swaying(30, 900, 0);
+  RawMotion answer = Swaying(29.4, 882, -0.3);
+  answer.rate_hz = 30;  // each second of the file is 1.02 s
+  EXPECT_THAT(Doubts(truth, WithErrors(answer, 0.01)),
+              ElementsAre(AllOf(HasSubstr("clock seems to drift, from 0.3 s early to 0.9 s early"),
+                                HasSubstr("as at 29.399 Hz instead of 30"))));
+  const auto constant = Match(truth, answer, "roles", Lag::kFind);
+  ASSERT_FALSE(constant) << "no constant lag fits";
+  EXPECT_THAT(ToString(constant.error()), HasSubstr("the answer's clock drifts"));
+  RawMotion slight = Swaying(29.99, 900, 0);
+  slight.rate_hz = 30;
+  EXPECT_THAT(Doubts(truth, slight), IsEmpty()) << "a hundredth of a second in half a minute";
+}
+
+TEST(DoubtsOnPair, NameAClockThatJumps) {
+  // Without frames 200 to 211, and with frames 200 to 211 twice.
+  const RawMotion truth = Swaying(30, 400, 0);
+  const std::size_t joints = truth.joints.size();
+  RawMotion missing = truth, twice = truth;
+  const auto at = [&](RawMotion& motion, std::size_t frame) { return motion.positions.begin() + frame * joints; };
+  missing.positions.erase(at(missing, 200), at(missing, 212));
+  twice.positions.insert(at(twice, 212), at(twice, 200), at(twice, 212));
+  EXPECT_THAT(
+      Doubts(truth, WithErrors(missing, 0.01)),
+      ElementsAre(AllOf(ContainsRegex("jump by -0.4 s about (6.[6-9].?|7(.[01].?)?) s"), HasSubstr("are frames missing?"))));
+  EXPECT_THAT(Doubts(truth, WithErrors(twice, 0.01)),
+              ElementsAre(AllOf(ContainsRegex("jump by 0.4 s about (6.[6-9].|7|7.[0-4].?) s"),
+                                HasSubstr("are frames there twice"))));
+  // One frame is too little beside these errors.
+  RawMotion almost = truth;
+  almost.positions.erase(at(almost, 200), at(almost, 201));
+  EXPECT_THAT(Doubts(truth, WithErrors(almost, 0.03)), IsEmpty());
 }
 
 TEST(DoubtsOnPair, NameTheRateAtWhichTheAnswerSpansTheTruth) {
