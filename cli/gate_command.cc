@@ -177,7 +177,8 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   }
   if (const auto silent = DescribeSilent(run); !silent.empty()) {
     PrintList(
-        "No baseline was written. A method has no answer, or a metric no value, and a later run could not be worse:",
+        "No baseline was written. No later run could be worse than a method without answers or a metric without "
+        "values:",
         silent);
     return kRegression;
   }
