@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/base/names.h"
+#include "io/files/file_path.h"
 #include "io/files/own_files.h"
 #include "io/process/fence.h"
 
@@ -24,10 +25,6 @@ fs::path Whole(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
-}
-
-bool IsWithin(const fs::path& path, const fs::path& folder) {
-  return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
 bool IsSeen(const fs::path& path, const ProgramView& view) {
@@ -111,9 +108,8 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     const fs::path folder = path.parent_path();
     // The Python of a virtual environment is a link, so it cannot be a mount point. The link is shown together with its
     // folder.
-    const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
-                            return std::ranges::mismatch(one, path).in1 == one.end();
-                          });
+    const bool is_shown = fs::is_symlink(path, error) &&
+                          std::ranges::any_of(view.shown, [&](const fs::path& one) { return IsWithin(path, one); });
     if (is_shown) continue;
     view.shown.push_back(view.shown.empty() && !Fence::HoldsScratch(folder) ? folder : path);
   }

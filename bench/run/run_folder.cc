@@ -19,6 +19,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/study_of.h"
 #include "engine/base/machine.h"
+#include "io/files/file_path.h"
 #include "io/files/files.h"
 
 namespace etude {
@@ -43,11 +44,6 @@ bool HoldsMoreThanLock(const fs::path& folder) {
   std::error_code none;
   return std::ranges::any_of(fs::directory_iterator(folder, none), fs::directory_iterator(),
                              [](const auto& entry) { return entry.path().filename() != kLockFile; });
-}
-
-bool IsWithin(const fs::path& path, const fs::path& folder) {
-  const fs::path from = path.lexically_relative(folder);
-  return !from.empty() && *from.begin() != "..";
 }
 
 /// Gives the folder `fresh` the name `old`, and the previous `old` the name `aside`. If the file system can exchange

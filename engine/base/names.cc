@@ -99,6 +99,11 @@ std::string Join(std::span<const std::string> items, std::string_view separator)
   return fmt::format("{}", fmt::join(items, separator));
 }
 
+std::string WithSpaces(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::string ComparedName(std::string_view name) {
   std::string letters;
   for (const char c : Composed(name)) {

@@ -18,6 +18,9 @@ std::string UnknownName(std::string_view kind, std::string_view name, std::span<
 /// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
+/// Returns a name with spaces instead of underscores: left_arm becomes "left arm".
+std::string WithSpaces(std::string name);
+
 /// Returns a person's name in the form in which names are compared, because people write one name in different ways:
 /// without spaces, with ASCII letters in lower case, and with each accented Latin letter as one character, even if the
 /// text has it as two (NFD).

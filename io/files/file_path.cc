@@ -88,6 +88,10 @@ FilePath FilePath::operator/(const fs::path& name) const {
   return path;
 }
 
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
 FilePath Inside(const fs::path& folder) {
   FilePath path(folder);
   path.is_inside_ = true;

@@ -42,6 +42,9 @@ class FilePath {
   bool is_inside_ = false;
 };
 
+/// Returns true if `path` is the folder or lies in it. Both are normalised, and both absolute or both relative.
+bool IsWithin(const std::filesystem::path& path, const std::filesystem::path& folder);
+
 /// Marks a folder that the user gave and somebody else may have filled. The folder itself may be a link.
 FilePath Inside(const std::filesystem::path& folder);
 

@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "engine/base/machine.h"
+#include "io/files/file_path.h"
 #include "io/process/child_process.h"
 #include "io/process/control_group.h"
 #include "io/process/system_call_filter.h"
@@ -47,11 +48,6 @@ constexpr std::array kShownSettings = {
     "matplotlibrc",  "papersize",      "static"};
 /// Scratch folders: programs may write to them; they are empty at the start.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
-
-bool IsWithin(const fs::path& path, const fs::path& folder) {
-  const auto [at_folder, at_path] = std::ranges::mismatch(folder, path);
-  return at_folder == folder.end();
-}
 
 /// Returns true if kShownSettings contains `below` (a path relative to /etc), or a folder above `below`.
 bool IsShownSetting(const fs::path& below) {

@@ -10,6 +10,7 @@
 
 #include "bench/model/recording.h"
 #include "engine/base/angles.h"
+#include "engine/base/names.h"
 #include "io/drawing/look.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -275,7 +276,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
     }
   }
   DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say,
-              why.empty() ? "the learner dances on the right" : PlainName(why));
+              why.empty() ? "the learner dances on the right" : WithSpaces(why));
 }
 
 void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {
@@ -318,7 +319,7 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
     if (end < shown.begin || begin > shown.end) continue;
     timeline.Bar(1, begin, end, PaintOfWord(performance.truth));
     if (now >= end) timeline.Bar(2, begin, end, PaintOfWord(performance.called));
-    timeline.Text(1, begin, end, PlainName(performance.move));
+    timeline.Text(1, begin, end, WithSpaces(performance.move));
   }
   for (const int point : facts_.transitions) {
     if (timeline.Shows(point)) timeline.Tick(point, 0, 0, kInk);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/model/recording.h"
+#include "engine/base/names.h"
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/key_pose.h"
 #include "io/drawing/look.h"
@@ -175,7 +176,7 @@ struct Strip {
 
 /// Describes the ground truth of a performance: "truth: wrong (wrong side, late)".
 std::string TruthWords(const JudgedSessionFacts::Performance& danced) {
-  std::string fault = danced.fault == "none" ? "" : " (" + PlainName(danced.fault) + ")";
+  std::string fault = danced.fault == "none" ? "" : " (" + WithSpaces(danced.fault) + ")";
   if (const auto plus = fault.find('+'); plus != std::string::npos) fault.replace(plus, 1, ", ");
   return fmt::format("truth: {}{}", danced.truth == "grey" ? "neither" : danced.truth, fault);
 }
@@ -258,7 +259,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
   const double left = kAnglesPanel.x + 16;
   canvas.DrawText({left, kAnglesPanel.y + 28},
-                  fmt::format("{}: {}", is_open ? "requested" : "last request", PlainName(asked.move)), 20, kInk, 300,
+                  fmt::format("{}: {}", is_open ? "requested" : "last request", WithSpaces(asked.move)), 20, kInk, 300,
                   true);
   const std::string called = CalledAt(0, current, now);
   const std::string verdict = called.empty() ? "not yet judged" : "judged " + called;
@@ -340,7 +341,7 @@ void JudgedScene::DrawTimeline(Canvas& canvas, int now) const {
   for (const Performance& performance : facts_.performances) {
     if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
     timeline.Bar(0, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
-    timeline.Text(0, performance.begin_frame, performance.end_frame, PlainName(performance.move));
+    timeline.Text(0, performance.begin_frame, performance.end_frame, WithSpaces(performance.move));
   }
   for (int j = 0; j < rows; ++j) {
     const auto& judge = facts_.judges[static_cast<std::size_t>(j)];

@@ -27,11 +27,6 @@ void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, doubl
   canvas.DrawDot(at(Role::kHead), 0.09 * box.height / tall, paint);
 }
 
-std::string PlainName(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 std::string_view PlainNameOf(Feature feature) {
   constexpr std::array<std::string_view, kFeatureCount> kNames = {"right arm",  "left arm", "right elbow", "left elbow",
                                                                   "height",     "trunk",    "right leg",   "left leg",

@@ -24,9 +24,6 @@ struct FrameSpan {
 inline constexpr Paint kRightPaint{0.36, 0.74, 0.46, 1}, kWrongPaint{0.88, 0.36, 0.32, 1};
 inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 
-/// Returns a move's or a fault's name in readable form: "fast_sway" becomes "fast sway".
-std::string PlainName(std::string name);
-
 /// Returns the everyday name of one of paper A's angles: the limb that is bent or raised, such as "right arm".
 std::string_view PlainNameOf(Feature feature);
 

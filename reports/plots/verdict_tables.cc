@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/base/names.h"
 #include "io/drawing/escape.h"
 #include "reports/plots/verdicts.h"
 #include "reports/words/answer.h"
@@ -35,11 +36,6 @@ std::string ShareText(const FaultCount& count) {
   return count.all == 0 ? std::string(kNoValue) : fmt::format("{:.0f}", 100.0 * count.found / count.all);
 }
 
-std::string Words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefix, const Verdicts& verdicts) {
   std::map<std::string, std::map<std::size_t, std::pair<FaultCount, FaultCount>>> by_fault;
   std::string head = Head("fault", false) + Head("performances");
@@ -51,7 +47,7 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
   std::string body;
   for (const auto& [fault, of_methods] : by_fault) {
     const auto& [slight, bad] = of_methods.begin()->second;
-    body += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{} · {}</td>", EscapeMarkup(Words(fault)),
+    body += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{} · {}</td>", EscapeMarkup(WithSpaces(fault)),
                         slight.all, bad.all);
     for (const auto& [method, of_method] : verdicts) {
       const auto found = of_methods.find(method);
@@ -96,7 +92,7 @@ std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, co
 std::string ConfusionTable(const std::string& caption, const MoveConfusion& confusion) {
   std::string head = Head("danced", false), body;
   for (const std::string& move : confusion.moves) {
-    head += fmt::format("<th scope=\"col\" class=\"n upright\"><span>{}</span></th>", EscapeMarkup(Words(move)));
+    head += fmt::format("<th scope=\"col\" class=\"n upright\"><span>{}</span></th>", EscapeMarkup(WithSpaces(move)));
   }
   head += "<th scope=\"col\" class=\"n upright\"><span>nothing</span></th>";
   std::vector<std::string> columns = confusion.moves;
@@ -104,7 +100,7 @@ std::string ConfusionTable(const std::string& caption, const MoveConfusion& conf
   for (const std::string& danced : confusion.moves) {
     const int all = confusion.Danced(danced);
     if (all == 0) continue;
-    body += fmt::format("<tr><th scope=\"row\">{} <small>{}</small></th>", EscapeMarkup(Words(danced)), all);
+    body += fmt::format("<tr><th scope=\"row\">{} <small>{}</small></th>", EscapeMarkup(WithSpaces(danced)), all);
     for (const std::string& named : columns) {
       const auto found = confusion.counts.find({danced, named});
       const double share = found == confusion.counts.end() ? 0 : 100.0 * found->second / all;

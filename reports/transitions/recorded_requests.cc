@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/model/recording.h"
+#include "engine/base/names.h"
 
 namespace etude {
 
@@ -37,8 +38,7 @@ Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const st
 std::string ClipInWords(std::string name) {
   constexpr std::string_view kBuiltin = "builtin:";
   if (name.starts_with(kBuiltin)) name.erase(0, kBuiltin.size());
-  std::ranges::replace(name, '_', ' ');
-  return name;
+  return WithSpaces(std::move(name));
 }
 
 std::string RecordedRequest::Name() const {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
 
 namespace etude {
@@ -291,9 +292,8 @@ std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
     add(fmt::format("depth : across, {}", GroupName(group)), "", statistics.depth_ratio[Index(group)]);
   }
   for (const BoneKind kind : AllBoneKinds()) {
-    std::string name(BoneName(kind));
-    std::ranges::replace(name, '_', ' ');
-    add("correlation along " + name, "", statistics.correlation[Index(kind)], ComparedBy::kDifference);
+    add("correlation along " + WithSpaces(std::string(BoneName(kind))), "", statistics.correlation[Index(kind)],
+        ComparedBy::kDifference);
   }
   // Add noise at rest, varying lengths, and jumps.
   add("white part, quiet torso", "mm", statistics.quiet_white_mm);

@@ -153,5 +153,12 @@ TEST(FileLines, AreThoseOfTheFileHoweverItIsCutIntoParts) {
   }
 }
 
+TEST(IsWithin, ComparesWholeNames) {
+  EXPECT_TRUE(IsWithin("/a/b", "/a/b"));
+  EXPECT_TRUE(IsWithin("/a/b/c", "/a/b"));
+  EXPECT_FALSE(IsWithin("/a", "/a/b"));
+  EXPECT_FALSE(IsWithin("/a/bc", "/a/b")) << "b is only the beginning of a name";
+}
+
 }  // namespace
 }  // namespace etude
