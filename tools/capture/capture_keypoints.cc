@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
@@ -228,35 +229,6 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
   return columns;
 }
 
-}  // namespace
-
-Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
-                       const BodyMotion& motion, Picture* middle) {
-  auto is_whole = options.listener.film(
-      [&](const FilmWatch& watch) { return WriteOverlayFilm(options.film, overlays, motion, watch, middle); });
-  if (is_whole && *is_whole) TellWritten(options.listener, options.film);
-  return is_whole;
-}
-
-std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
-                                    std::size_t chosen, const std::vector<FilmClock>& clocks) {
-  std::vector<OverlayView> overlays;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const FilmedView& view = views[i];
-    overlays.push_back(
-        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
-    for (auto seen : person.people[chosen].seen[i]) {
-      // Keypoints of matched persons have no lens distortion; add the distortion before the keypoints are drawn.
-      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
-        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
-        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
-      }
-      overlays.back().keypoints.push_back(seen);
-    }
-  }
-  return overlays;
-}
-
 /// Prints the cameras and frames in which keypoints contradict the rig.
 void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double min_confidence,
                 MessageLog& told) {
@@ -270,6 +242,98 @@ void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& view
     told.Tell("doubtful: " + doubt);
   }
 }
+
+/// Moves the rig, its views and the points into the world: metres, Y up, with the floor that the options define.
+Result<void> PlaceInWorld(const CaptureFilmsOptions& options, double rate_hz, FilmedSession& session, SeenFilms& films,
+                          RecoveredPerson& located) {
+  std::vector<FilmedView>& views = session.views;
+  for (const FilmedView& view : views) {  // `SeeFilms` may have exchanged or corrected the cameras in `views`
+    const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
+    if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
+  }
+  const auto place = PlaceRig(session.rig, located.landmarks, rate_hz, options.place);
+  if (!place && !place.error().place.file.empty()) {
+    return Fail({options.marks.empty() ? options.keypoints : options.marks}, "{}{}", place.error().message,
+                DoubtOfLayout(films));
+  }
+  if (!place) return Fail({options.rig}, "{}", place.error().message);
+  films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
+  if (!place->doubt.empty()) films.told.Tell("doubtful: " + place->doubt);
+  if (place->IsNone()) return {};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].camera.camera = Placed(*place, views[i].camera.camera);
+    films.cameras[i] = MatrixOf(views[i].camera.camera);
+  }
+  for (LandmarkPositions& frame : located.landmarks) {
+    for (auto& point : frame) {
+      if (point) point = (*place)(*point);
+    }
+  }
+  return {};
+}
+
+/// Reports the people, the repairs, the doubts and the residuals.
+void TellFindings(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
+                  const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
+                  MessageLog& told) {
+  options.listener.print(PeopleText(person, views));
+  TellCorrections(person, chosen, views, told);
+  TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, told);
+  std::vector<JointPositions> joints;
+  for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
+  if (HangsMirrored(person, views.size())) {
+    told.Tell(
+        "doubtful: the person is upside down, and left and right are exchanged in all cameras. The pictures of all "
+        "films may be rotated by 180° relative to the rig");
+  }
+  const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
+  if (!exchanged.empty()) told.Tell("doubtful: " + exchanged);
+  options.listener.print(ReportText(person, views) + FitText(person));
+}
+
+/// The outlines in all films, and the motion that fits keypoints and outlines.
+struct CapturedOutlines {
+  ReducedTake take;
+  UnmarkedMotion motion;
+};
+
+/// Reads the silhouettes and fits the person's joints to keypoints and outlines together.
+Result<CapturedOutlines> RefineWithOutlines(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
+                                            const std::vector<FilmedView>& views, std::size_t chosen, SeenFilms& films,
+                                            RecoveredPerson& person) {
+  ASSIGN_OR_RETURN(ReducedTake take, ReadTake(options, views, films.clocks, films.told));
+  ASSIGN_OR_RETURN(UnmarkedMotion both, WithOutlines(person, chosen, take, options));
+  if (JoinOutlines(films.cameras, person.people[chosen], both.motion, AdjustOf(recover), person)) {
+    films.told.Tell(
+        fmt::format("{}; the joints are fitted to keypoints and outlines together", OutlinesText(views, both)));
+  } else {
+    films.told.Tell(
+        "doubtful: found no motion that fits keypoints and outlines at once, so the joints are fitted to the "
+        "keypoints alone");
+  }
+  return CapturedOutlines{std::move(take), std::move(both)};
+}
+
+/// Compares the captured motion with a reference, and reports the distances.
+Result<void> CompareWith(const MarkerMotion& reference, const CaptureFilmsOptions& options,
+                         const RecoverPersonOptions& recover, const std::vector<FilmedView>& views,
+                         const CapturedOutlines* outlines, const RecoveredPerson& person, SeenFilms& films) {
+  const std::string what =
+      fmt::format("Median distance between the {} and {}, mm.",
+                  outlines || !HasLandmarks(reference) ? "joints" : "triangulated keypoints", options.reference);
+  const MarkerMotion in_time = SynchroniseWith(ComparedOf(person, reference, recover.rate_hz), reference, films.told);
+  std::vector<ComparedColumn> columns;
+  if (outlines) {
+    ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, outlines->take, recover, options));
+  } else {
+    columns = CompareWithReference(in_time, person, films, recover);
+  }
+  return TellColumns(
+      what + " If the reference was made from the same\nkeypoints, the distance shows agreement, not error.", columns,
+      views, options);
+}
+
+}  // namespace
 
 Result<KeypointNoise> MeasureFilmedNoise(const CaptureFilmsOptions& options) {
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
@@ -293,30 +357,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
   auto found = LocatePerson(films.cameras, films.people, recover);
   if (!found) return Fail(found.error().place, "{}{}", found.error().message, DoubtOfLayout(films));
   RecoveredPerson located = *std::move(found);
-  // Move the rig and the points into the world: metres, Y up, with the floor that the options define.
-  for (const FilmedView& view : views) {  // `SeeFilms` may have exchanged or corrected the cameras in `views`
-    const auto same = std::ranges::find(session.rig.cameras, view.camera.name, &NamedCamera::name);
-    if (same != session.rig.cameras.end()) same->camera = view.camera.camera;
-  }
-  const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
-  if (!place && !place.error().place.file.empty()) {
-    return Fail({options.marks.empty() ? options.keypoints : options.marks}, "{}{}", place.error().message,
-                DoubtOfLayout(films));
-  }
-  if (!place) return Fail({options.rig}, "{}", place.error().message);
-  films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
-  if (!place->doubt.empty()) films.told.Tell("doubtful: " + place->doubt);
-  if (!place->IsNone()) {
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      views[i].camera.camera = Placed(*place, views[i].camera.camera);
-      films.cameras[i] = MatrixOf(views[i].camera.camera);
-    }
-    for (LandmarkPositions& frame : located.landmarks) {
-      for (auto& point : frame) {
-        if (point) point = (*place)(*point);
-      }
-    }
-  }
+  RETURN_IF_ERROR(PlaceInWorld(options, recover.rate_hz, session, films, located));
   // Fit the skeleton: each frame alone, or all frames at once.
   ASSIGN_OR_RETURN(RecoveredPerson person, FitLocated(std::move(located), recover));
   const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
@@ -326,36 +367,13 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
           "doubtful: found no motion that fits all keypoints at once, so every frame was fitted separately");
     }
   }
-  // Report the people, the repairs, the doubts and the residuals.
-  options.listener.print(PeopleText(person, views));
-  TellCorrections(person, chosen, views, films.told);
-  TellDoubts(person.people[chosen], views, recover.triangulate.min_confidence, films.told);
-  std::vector<JointPositions> joints;
-  for (const LandmarkPositions& frame : person.landmarks) joints.push_back(JointsOf(frame));
-  if (HangsMirrored(person, views.size())) {
-    films.told.Tell(
-        "doubtful: the person is upside down, and left and right are exchanged in all cameras. The pictures of all "
-        "films may be rotated by 180° relative to the rig");
-  }
-  const std::string exchanged = DescribeExchangedJoints(joints, recover.rate_hz);
-  if (!exchanged.empty()) films.told.Tell("doubtful: " + exchanged);
-  options.listener.print(ReportText(person, views) + FitText(person));
+  TellFindings(options, recover, views, person, chosen, films.told);
   facts["keypoints"] = FactsOf(person, views, films.told.lines);
-  // If the options require silhouettes, refine the motion with silhouettes.
-  ReducedTake take;
-  std::optional<UnmarkedMotion> both;
+  std::optional<CapturedOutlines> outlines;
   if (options.silhouettes) {
-    ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks, films.told));
-    ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
-    facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
-    if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
-      films.told.Tell(
-          fmt::format("{}; the joints are fitted to keypoints and outlines together", OutlinesText(views, *both)));
-    } else {
-      films.told.Tell(
-          "doubtful: found no motion that fits keypoints and outlines at once, so the joints are fitted to the "
-          "keypoints alone");
-    }
+    ASSIGN_OR_RETURN(outlines, RefineWithOutlines(options, recover, views, chosen, films, person));
+    const UnmarkedMotion& both = outlines->motion;
+    facts["silhouettes"] = {{"stature_m", both.stature_m}, {"cost", both.cost}, {"held_frames", both.held}};
   }
   // Write the motion and the points.
   RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
@@ -364,25 +382,12 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
     TellWritten(options.listener, options.points);
   }
-  // If there is a reference, compare the motion with the reference.
   if (reference) {
-    const std::string what =
-        fmt::format("Median distance between the {} and {}, mm.",
-                    both || !HasLandmarks(*reference) ? "joints" : "triangulated keypoints", options.reference);
-    const MarkerMotion in_time =
-        SynchroniseWith(ComparedOf(person, *reference, recover.rate_hz), *reference, films.told);
-    std::vector<ComparedColumn> columns;
-    if (both) {
-      ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, take, recover, options));
-    } else {
-      columns = CompareWithReference(in_time, person, films, recover);
-    }
-    RETURN_IF_ERROR(TellColumns(
-        what + " If the reference was made from the same\nkeypoints, the distance shows agreement, not error.", columns,
-        views, options));
+    RETURN_IF_ERROR(CompareWith(*reference, options, recover, views, outlines ? &*outlines : nullptr, person, films));
   }
   // Write the film and the page.
-  if (!options.report.empty()) return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);
+  if (!options.report.empty())
+    return WriteReport(options, views, person, chosen, films, outlines ? &outlines->motion : nullptr);
   if (options.film.empty()) return true;
   return WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <span>
 
 #include "engine/base/order_statistics.h"
 #include "io/files/files.h"
@@ -150,6 +151,33 @@ std::string OutlinesText(const std::vector<FilmedView>& views, const UnmarkedMot
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
   return doubts == 0 ? "nothing is doubtful" : fmt::format("doubtful findings, listed below: {}", doubts);
+}
+
+Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion, Picture* middle) {
+  auto is_whole = options.listener.film(
+      [&](const FilmWatch& watch) { return WriteOverlayFilm(options.film, overlays, motion, watch, middle); });
+  if (is_whole && *is_whole) TellWritten(options.listener, options.film);
+  return is_whole;
+}
+
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
+                                    std::size_t chosen, const std::vector<FilmClock>& clocks) {
+  std::vector<OverlayView> overlays;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const FilmedView& view = views[i];
+    overlays.push_back(
+        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
+    for (auto seen : person.people[chosen].seen[i]) {
+      // Keypoints of matched persons have no lens distortion; add the distortion before the keypoints are drawn.
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
+        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
+      }
+      overlays.back().keypoints.push_back(seen);
+    }
+  }
+  return overlays;
 }
 
 Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,

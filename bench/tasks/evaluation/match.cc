@@ -261,6 +261,22 @@ void TakeAnswer(const RawMotion& found, const std::vector<int>& joints, Evaluate
   pair.found_contacts = found.contacts;
 }
 
+/// Stores in `matched` how many frames of the truth lie outside the answer, and of the answer outside the truth. The
+/// truth's first frame is at `start_s` of the answer.
+void CountOutside(const RawMotion& truth, const RawMotion& answer, double start_s, MatchedMotions& matched) {
+  constexpr double kRounding = 0.01, kHalf = 0.5;  // tolerances in frames; kRounding as in FramesToJudge
+  const double last_of_truth = static_cast<double>(truth.FrameCount()) - 1,
+               last_of_answer = static_cast<double>(answer.FrameCount()) - 1;
+  for (std::size_t f = 0; f < truth.FrameCount(); ++f) {
+    const double at = (start_s + static_cast<double>(f) / truth.rate_hz) * answer.rate_hz;
+    if (at < -kRounding || at > last_of_answer + kRounding) ++matched.uncovered;
+  }
+  for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
+    const double at = (static_cast<double>(f) / answer.rate_hz - start_s) * truth.rate_hz;
+    if (at < -kHalf || at > last_of_truth + kHalf) ++matched.surplus;
+  }
+}
+
 }  // namespace
 
 Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& given_answer, std::string_view set,
@@ -268,6 +284,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   RawMotion changed_truth, changed_answer;
   const auto both = WithCommonRoles(given_truth, given_answer, changed_truth, changed_answer);
   const RawMotion &truth = both.first, &answer = both.second;
+  // Find the joints that both motions have.
   MatchedMotions matched;
   std::vector<CommonJoint> lacking;
   const std::vector<CommonJoint> common = FindCommon(truth, answer, set, lacking);
@@ -279,6 +296,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     of_truth.push_back(joint.truth);
     of_answer.push_back(joint.answer);
   }
+  // Find the time at which they are paired.
   const std::size_t frames = truth.FrameCount();
   const double truth_rate_hz = HaveSameRate(truth, answer) ? answer.rate_hz : truth.rate_hz;
   const StatedOffset clock = OffsetOf(truth, answer);
@@ -310,6 +328,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     matched.pair.true_root.clear();
     matched.pair.found_root.clear();
   }
+  // Keep the motions to show, and all of the answer's own frames.
   if (judged.rate_hz != truth_rate_hz || judged.is_interpolated || !judged.own.empty()) {
     matched.shown = {JointColumns(truth, of_truth, frames),
                      JointColumns(Sampled(answer, truth_rate_hz, start_s, frames), of_answer, frames), truth_rate_hz};
@@ -322,6 +341,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
     TakeAnswer(At(answer, judged.own, answer.rate_hz, own_frames), of_answer, *matched.own);
     if (matched.pair.found_root.empty()) matched.own->found_root.clear();
   }
+  // Describe what was judged, and what was not.
   for (const CommonJoint& joint : lacking) {
     matched.lacking.push_back(joint.name);
     for (std::size_t f = 0; f < count && joint.truth >= 0; ++f) {
@@ -332,18 +352,7 @@ Result<MatchedMotions> Match(const RawMotion& given_truth, const RawMotion& give
   matched.bends = FindBends(common, truth);
   matched.parents = FindParents(common, truth);
   MatchAngles(true_at, found_at, matched);
-  // Count the truth's frames before the answer's beginning and after its end.
-  for (std::size_t f = 0; f < frames; ++f) {
-    constexpr double kRounding = 0.01;  // tolerance in frames, as in FramesToJudge
-    const double at = (start_s + static_cast<double>(f) / truth_rate_hz) * answer.rate_hz;
-    if (at < -kRounding || at > static_cast<double>(answer.FrameCount() - 1) + kRounding) ++matched.uncovered;
-  }
-  // Count the frames of the answer that come before the truth's first frame or after the truth's last frame.
-  for (std::size_t f = 0; f < answer.FrameCount(); ++f) {
-    constexpr double kOutside = 0.5;  // frames
-    const double at = (static_cast<double>(f) / answer.rate_hz - start_s) * truth.rate_hz;
-    if (at < -kOutside || at > static_cast<double>(frames - 1) + kOutside) ++matched.surplus;
-  }
+  CountOutside(truth, answer, start_s, matched);
   if (SeenShare(matched.pair).value_or(0) == 0) {
     return Fail({answer.name}, "no joint of '{}' is ever seen in both motions", truth.name);
   }
