@@ -34,7 +34,7 @@ class DistanceComparison {
     answer_ = chosen(answer);
     const PointTracks all = chosen(truth);
     stride_ = 1 + all.FrameCount() / kMaxFrames;
-    for (std::size_t f = 0; f < all.FrameCount(); f += stride_) true_.push_back(DistancesAt(all.Frame(f)));
+    true_ = DistancesEvery(stride_, all);
   }
 
   struct Difference {
@@ -75,18 +75,21 @@ class DistanceComparison {
   /// distances are left out, because bodies differ.
   template <typename At>
   std::vector<double> SquaresByShift(std::size_t shifts, const At& at) const {
-    std::vector<std::array<double, kMaxPairs>> found;
-    for (std::size_t f = 0; f < answer_.FrameCount(); ++f) found.push_back(DistancesAt(answer_.Frame(f)));
-    const auto true_means = MeansOf(true_), found_means = MeansOf(found);
+    constexpr std::size_t kMeanFrames = 2000;  // more hardly change a mean
+    const auto true_means = MeansOf(true_),
+               found_means = MeansOf(DistancesEvery(1 + answer_.FrameCount() / kMeanFrames, answer_));
     std::vector<double> all;
     for (std::size_t i = 0; i < true_.size(); ++i) {
       for (std::size_t shift = 0; shift < shifts; ++shift) {
         const double frame = std::round(at(FrameAt(i), shift));
+        if (frame < 0 || frame >= static_cast<double>(answer_.FrameCount())) {
+          all.push_back(std::nan(""));
+          continue;
+        }
+        const Distances found = DistancesAt(answer_.Frame(static_cast<std::size_t>(frame)));
         double squares = 0, seen = 0;
-        for (std::size_t pair = 0; pair < kMaxPairs && frame >= 0 && frame < static_cast<double>(found.size());
-             ++pair) {
-          const double difference =
-              (found[static_cast<std::size_t>(frame)][pair] - found_means[pair]) - (true_[i][pair] - true_means[pair]);
+        for (std::size_t pair = 0; pair < kMaxPairs; ++pair) {
+          const double difference = (found[pair] - found_means[pair]) - (true_[i][pair] - true_means[pair]);
           if (std::isnan(difference)) continue;
           squares += difference * difference;
           seen += 1;
@@ -99,9 +102,10 @@ class DistanceComparison {
 
  private:
   static constexpr std::size_t kMaxJoints = 8, kMaxPairs = kMaxJoints * (kMaxJoints - 1) / 2;
+  using Distances = std::array<double, kMaxPairs>;
 
-  static std::array<double, kMaxPairs> DistancesAt(std::span<const glm::dvec3> joints) {
-    std::array<double, kMaxPairs> distances{};
+  static Distances DistancesAt(std::span<const glm::dvec3> joints) {
+    Distances distances{};
     distances.fill(std::nan(""));
     std::size_t pair = 0;
     for (std::size_t a = 0; a < joints.size(); ++a) {
@@ -110,9 +114,15 @@ class DistanceComparison {
     return distances;
   }
 
-  static std::array<double, kMaxPairs> MeansOf(const std::vector<std::array<double, kMaxPairs>>& all) {
-    std::array<double, kMaxPairs> sums{}, counts{};
-    for (const auto& distances : all) {
+  static std::vector<Distances> DistancesEvery(std::size_t stride, const PointTracks& tracks) {
+    std::vector<Distances> all;
+    for (std::size_t f = 0; f < tracks.FrameCount(); f += stride) all.push_back(DistancesAt(tracks.Frame(f)));
+    return all;
+  }
+
+  static Distances MeansOf(const std::vector<Distances>& all) {
+    Distances sums{}, counts{};
+    for (const Distances& distances : all) {
       for (std::size_t pair = 0; pair < kMaxPairs; ++pair) {
         if (std::isnan(distances[pair])) continue;
         sums[pair] += distances[pair];
@@ -125,7 +135,7 @@ class DistanceComparison {
 
   PointTracks answer_;
   std::size_t stride_ = 1;
-  std::vector<std::array<double, kMaxPairs>> true_;
+  std::vector<Distances> true_;
 };
 
 /// Returns the side's joints, each replaced by the joint of the body's other side that has the mirrored role.
