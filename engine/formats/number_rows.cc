@@ -112,7 +112,9 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     std::vector<std::string_view> words = WordsOf(separator == '\t' ? whole : line, separator);
     DropEmptyEnd(words, table.columns > 0 ? table.columns : headings);
     // The first line may be a heading.
-    if (table.columns == 0 && table.heading.empty() && separator == 0 && !NumberOf(words.front())) {
+    const bool has_word = !NumberOf(words.front()) ||
+                          (words.front().empty() && words.size() > 1 && !NumberOf(words[1]));  // pandas' index
+    if (table.columns == 0 && table.heading.empty() && separator == 0 && has_word) {
       table.heading = line;
       separator = SeparatorOf(line);
       headings = HeadingsOf(line).size();

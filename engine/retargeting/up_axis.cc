@@ -218,6 +218,8 @@ UpRule C3dUp(char axis, bool is_negative) {
   return rule;
 }
 
+UpRule TableUp() { return {.source = "the usual axis of tables of points"}; }
+
 UpRule ArrayUp() { return {.source = "the usual axis of arrays of joints"}; }
 
 UpRule CameraUp() { return {.evidence = UpEvidence::kFormat, .source = "the up axis of a level camera"}; }

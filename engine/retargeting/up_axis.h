@@ -72,11 +72,13 @@ UpFinding FindUp(std::span<const BodyPose> poses, double rate_hz, const UpRule& 
 /// upright, or Y if the rest pose stands along neither axis.
 UpFinding FindUp(const BodyPose& rest, std::span<const BodyPose> poses, double rate_hz);
 
-/// The rules of formats. For TRC, C3D without Y_SCREEN and joint arrays there is no rule, only a usual axis.
+/// The rules of formats. For TRC, C3D without Y_SCREEN, tables of points and joint arrays there is no rule, only a
+/// usual axis.
 UpRule TrcUp();
 /// `axis` is 'X', 'Y' or 'Z' as in the file's entry Y_SCREEN, or 0 without that entry. Without that entry, Z is the
 /// usual axis, by the convention of biomechanics.
 UpRule C3dUp(char axis, bool is_negative);
+UpRule TableUp();  ///< for tables of points, which state no axis
 UpRule ArrayUp();
 UpRule CameraUp();     ///< for arrays that JointsOfSam has already rotated
 UpRule RawArraysUp();  ///< for arrays that ReadRawNpz has already rotated

@@ -342,8 +342,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   // Try markers, and recordings of runs.
   if (auto read = ReadMarkers(bytes, path)) {
     ASSIGN_OR_RETURN(auto markers, *std::move(read));
-    ASSIGN_OR_RETURN(auto file, FileOfMarkers(markers.format, std::move(markers.markers), path,
-                                              ToldOfMarkers(options, std::move(markers.rule))));
+    MarkerOptions told = ToldOfMarkers(options, std::move(markers.rule));
+    told.layout = markers.layout;
+    ASSIGN_OR_RETURN(auto file, FileOfMarkers(markers.format, std::move(markers.markers), path, told));
     file.has_rate = markers.has_rate;
     return file;
   }

@@ -49,8 +49,10 @@ struct MarkerFile {
   MarkerMotion markers;
   UpRule rule;
   bool has_rate = true;
+  std::string layout = "";  ///< as in MarkerOptions
 };
-/// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV); returns nullopt if the file is of another kind.
+/// Reads a file of markers (C3D, TRC, Motive's CSV, joint CSV, a table of points); returns nullopt if the file is of
+/// another kind.
 std::optional<Result<MarkerFile>> ReadMarkers(std::string_view bytes, const std::string& path);
 
 }  // namespace etude

@@ -105,7 +105,8 @@ std::string DescribeOtherFile(std::string_view bytes, std::string_view first_wor
   const std::string_view line = head.substr(0, head.find('\n'));
   if (std::ranges::count_if(line, [](char c) { return c == ',' || c == ';' || c == '\t'; }) > 1) {
     return "a table " + begins +
-           ": for joint positions, use columns such as left_wrist_x_m, or numpy.save (frames × joints × 3)";
+           ": for joint positions, use columns such as wrist_x, wrist_y and wrist_z of at least three joints, or "
+           "numpy.save (frames × joints × 3)";
   }
   return "a file " + begins;
 }

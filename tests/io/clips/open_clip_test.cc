@@ -218,7 +218,8 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
            {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
            {"[{\"keypoints\": []}]", "a JSON list: for joint positions, use numpy.save"},
            {"frame,x,y,z\n",
-            "a table that begins with 'frame,x,y,z': for joint positions, use columns such as left_wrist_x_m"}}) {
+            "a table that begins with 'frame,x,y,z': for joint positions, use columns such as wrist_x, wrist_y and "
+            "wrist_z"}}) {
     EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
   }
   EXPECT_NE(Complaint(folder_.path().string())

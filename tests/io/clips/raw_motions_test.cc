@@ -1,5 +1,6 @@
 #include "io/clips/raw_motions.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -136,11 +137,26 @@ std::string NpzOf(const MarkerMotion& markers) {
                   {{"names", markers.names}});
 }
 
-TEST_F(RawMotionsTest, ArraysAndMarkersOfTheSameNamesAreTheSameJoints) {
+/// Writes a table with millimetres, which its headings do not state.
+std::string TableOf(const MarkerMotion& markers) {
+  std::string text = "timestamp";
+  for (const std::string& name : markers.names) text += "," + name + "_x," + name + "_y," + name + "_z";
+  for (std::size_t f = 0; f < markers.frames.size(); ++f) {
+    text += fmt::format("\n{}", 1000 * static_cast<double>(f) / markers.rate_hz);
+    for (const auto& place : markers.frames[f]) {
+      text += fmt::format(",{},{},{}", 1000 * place->x, 1000 * place->y, 1000 * place->z);
+    }
+  }
+  return text + "\n";
+}
+
+TEST_F(RawMotionsTest, ArraysTablesAndMarkersOfTheSameNamesAreTheSameJoints) {
   const RawMotion trc = Opened(Write("a.trc", WriteTrc(Keypoints(), "a")));
   const RawMotion npz = Opened(Write("a.npz", NpzOf(Keypoints())));
+  const RawMotion table = Opened(Write("a.csv", TableOf(Keypoints())));
+  EXPECT_THAT(table.notes, ::testing::Contains(HasSubstr("1 unit = 0.1 cm, by the size of the body")));
   const BodyPose pose = StandingPose();
-  for (const RawMotion& raw : {trc, npz}) {
+  for (const RawMotion& raw : {trc, npz, table}) {
     EXPECT_EQ(raw.rate_hz, 60);
     EXPECT_THAT(raw.notes.front(), HasSubstr("markers: HALPE_26"));
     for (const Role role : {Role::kHead, Role::kShoulderCentre, Role::kLeftKnee, Role::kRightWrist}) {
