@@ -21,7 +21,7 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kSeparators = "_.:-/|";
+constexpr std::string_view kNameSeparators = "_.:-/|";
 
 /// A heading without its unit, and the unit as text; "" if the heading states none.
 struct HeadingAndUnit {
@@ -50,7 +50,7 @@ HeadingAndUnit SplitUnit(std::string_view heading) {
     while (before.ends_with('_')) before.remove_suffix(1);
     return {before, heading.substr(open + 1, heading.size() - open - 2)};
   }
-  const std::size_t end = heading.find_last_of(kSeparators);
+  const std::size_t end = heading.find_last_of(kNameSeparators);
   if (end == std::string_view::npos) return {heading, ""};
   return {heading.substr(0, end), heading.substr(end + 1)};
 }
@@ -70,7 +70,7 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 /// Splits the name of a column into a point and an axis: wrist_x, WristX, x_wrist, x1 or 1x.
 std::optional<PointAndAxis> SplitAxis(std::string_view name) {
   if (name.size() < 2) return std::nullopt;
-  const auto is_separator = [](char c) { return kSeparators.find(c) != std::string_view::npos; };
+  const auto is_separator = [](char c) { return kNameSeparators.find(c) != std::string_view::npos; };
   const std::size_t last = name.size() - 1;
   if (const auto axis = AxisOfLetter(name[last])) {
     const char before = name[last - 1];
@@ -89,7 +89,7 @@ std::optional<PointAndAxis> SplitAxis(std::string_view name) {
 std::vector<std::string> WordsIn(std::string_view name) {
   std::vector<std::string> words(1);
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool is_separator = kSeparators.find(name[i]) != std::string_view::npos;
+    const bool is_separator = kNameSeparators.find(name[i]) != std::string_view::npos;
     const bool is_new = i > 0 && name[i] >= 'A' && name[i] <= 'Z' && name[i - 1] >= 'a' && name[i - 1] <= 'z';
     if (is_separator || is_new) words.emplace_back();
     if (!is_separator) words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
@@ -113,7 +113,7 @@ std::string WithoutPosition(std::string point) {
   const std::string last = WordsIn(point).back();
   if (last.size() >= point.size() || std::ranges::find(kPositions, last) == kPositions.end()) return point;
   point.resize(point.size() - last.size());
-  if (kSeparators.find(point.back()) != std::string_view::npos && point.size() > 1) point.pop_back();
+  if (kNameSeparators.find(point.back()) != std::string_view::npos && point.size() > 1) point.pop_back();
   return point;
 }
 
@@ -135,27 +135,27 @@ std::optional<CoordinateColumn> CoordinateOf(std::string_view heading) {
 /// Returns the seconds per unit of a column of times; nullopt if the heading names no time. Without a unit: seconds.
 std::optional<double> SecondsOfTime(std::string_view heading) {
   constexpr std::array<std::string_view, 6> kTimes = {"t", "time", "times", "timestamp", "timestamps", "time_stamp"};
-  constexpr std::pair<std::string_view, double> kUnits[] = {{"", 1},
-                                                            {"s", 1},
-                                                            {"sec", 1},
-                                                            {"secs", 1},
-                                                            {"seconds", 1},
-                                                            {"ms", 1e-3},
-                                                            {"msec", 1e-3},
-                                                            {"milliseconds", 1e-3},
-                                                            {"us", 1e-6},
-                                                            {"µs", 1e-6},
-                                                            {"microseconds", 1e-6},
-                                                            {"ns", 1e-9},
-                                                            {"nanoseconds", 1e-9},
-                                                            {"min", 60},
-                                                            {"minutes", 60}};
+  constexpr std::pair<std::string_view, double> kTimeUnits[] = {{"", 1},
+                                                                {"s", 1},
+                                                                {"sec", 1},
+                                                                {"secs", 1},
+                                                                {"seconds", 1},
+                                                                {"ms", 1e-3},
+                                                                {"msec", 1e-3},
+                                                                {"milliseconds", 1e-3},
+                                                                {"us", 1e-6},
+                                                                {"µs", 1e-6},
+                                                                {"microseconds", 1e-6},
+                                                                {"ns", 1e-9},
+                                                                {"nanoseconds", 1e-9},
+                                                                {"min", 60},
+                                                                {"minutes", 60}};
   const auto is_time = [&](std::string_view name) {
     return std::ranges::any_of(kTimes, [&](std::string_view time) { return EqualsIgnoringCase(time, name); });
   };
   const HeadingAndUnit split = is_time(heading) ? HeadingAndUnit{heading, ""} : SplitUnit(heading);
   if (!is_time(split.heading)) return std::nullopt;
-  for (const auto& [unit, seconds] : kUnits) {
+  for (const auto& [unit, seconds] : kTimeUnits) {
     if (EqualsIgnoringCase(unit, split.unit)) return seconds;
   }
   return std::nullopt;
@@ -232,9 +232,9 @@ Result<PointColumns> FindPointColumns(const std::vector<std::string>& headings, 
                        : 'z',
                   Quote(found.points[p]));
   }
-  constexpr std::size_t kMaxPoints = 1000;
-  if (found.points.size() > kMaxPoints)
-    return Fail(place, "found {} points; allowed: at most {}", found.points.size(), kMaxPoints);
+  constexpr std::size_t kMostPoints = 1000;
+  if (found.points.size() > kMostPoints)
+    return Fail(place, "found {} points; allowed: at most {}", found.points.size(), kMostPoints);
   return found;
 }
 
@@ -266,12 +266,13 @@ Result<void> CheckOnePerson(const NumberRows& table, std::size_t column, const s
 
 /// Describes what was left out and assumed.
 std::string RemarkOn(const PointColumns& columns, const NumberRows& table) {
-  constexpr std::size_t kListed = 8;
+  constexpr std::size_t kListedColumns = 8;
   std::vector<std::string> said;
   if (table.has_decimal_commas) said.emplace_back("Etude read commas as decimal points");
   if (!columns.left_out.empty()) {
-    const bool has_more = columns.left_out.size() > kListed;
-    const std::span<const std::string> listed(columns.left_out.data(), has_more ? kListed : columns.left_out.size());
+    const bool has_more = columns.left_out.size() > kListedColumns;
+    const std::span<const std::string> listed(columns.left_out.data(),
+                                              has_more ? kListedColumns : columns.left_out.size());
     said.push_back("Etude left out columns that are no positions: " + Join(listed) + (has_more ? ", …" : ""));
   }
   return Join(said, "; ");
@@ -280,22 +281,22 @@ std::string RemarkOn(const PointColumns& columns, const NumberRows& table) {
 }  // namespace
 
 bool IsPointTable(std::string_view text) {
-  constexpr std::size_t kMinPoints = 3;
+  constexpr std::size_t kFewestPoints = 3;
   std::map<std::string, int> axes;
   for (const std::string& heading : NamesOfColumns(HeadingLine(text))) {
     if (const auto found = CoordinateOf(heading)) axes[found->point] |= 1 << found->axis;
   }
   constexpr int kAllAxes = 7;
   return std::ranges::count(axes, kAllAxes, [](const auto& one) { return one.second; }) >=
-         static_cast<std::ptrdiff_t>(kMinPoints);
+         static_cast<std::ptrdiff_t>(kFewestPoints);
 }
 
 Result<PointTable> ReadPointTable(std::string_view text, const std::string& file) {
-  constexpr double kMaxTime = 1e19, kMaxPlace = 1e9, kMissing = std::numeric_limits<double>::quiet_NaN();
-  constexpr std::size_t kMaxRows = 1'000'000;
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
-  if (table.RowCount() > kMaxRows)
-    return Fail({file}, "found {} rows; allowed: at most {}", table.RowCount(), kMaxRows);
+  constexpr double kLatestTime = 1e19, kFarthest = 1e9, kNoTime = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t kMostRows = 1'000'000;
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kLatestTime, true));
+  if (table.RowCount() > kMostRows)
+    return Fail({file}, "found {} rows; allowed: at most {}", table.RowCount(), kMostRows);
   // Find the columns. Columns of texts are no positions.
   const std::vector<std::string> headings = NamesOfColumns(table.heading);
   if (headings.size() != table.columns)
@@ -323,13 +324,13 @@ Result<PointTable> ReadPointTable(std::string_view text, const std::string& file
       const glm::dvec3 place(row[*x], row[*y], row[*z]);
       if (std::isnan(place.x + place.y + place.z)) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(place[axis]) <= kMaxPlace) continue;
+        if (std::abs(place[axis]) <= kFarthest) continue;
         return Fail({file, table.lines[t]}, "{} of {}: found {:.10g}; allowed: a number within ±{:g}", "xyz"[axis],
-                    Quote(columns.points[p]), place[axis], kMaxPlace);
+                    Quote(columns.points[p]), place[axis], kFarthest);
       }
       frame[p] = metres * place;
     }
-    read.rows.times_s.push_back(columns.time ? columns.seconds * row[*columns.time] : kMissing);
+    read.rows.times_s.push_back(columns.time ? columns.seconds * row[*columns.time] : kNoTime);
     if (columns.number) read.rows.numbers.push_back(row[*columns.number]);
   }
   if (columns.time) read.rows.time_name = "the column " + headings[*columns.time];

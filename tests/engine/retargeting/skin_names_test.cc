@@ -20,14 +20,15 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// A marker: its name for the side "?", its joint of the left side, and its offset outwards, upwards and forwards.
-struct Placed {
+struct SkinMarker {
   std::string name;
   Role role;
   glm::dvec3 off = glm::dvec3(0);
 };
 
 /// Returns ten frames; markers whose names have '?' are on both sides, named by `left` and `right`.
-MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = "L.", const std::string& right = "R.") {
+MarkerMotion TakeOfSkin(const std::vector<SkinMarker>& markers, const std::string& left = "L.",
+                        const std::string& right = "R.") {
   MarkerMotion take{.rate_hz = 50, .names = {}, .frames = decltype(MarkerMotion::frames)(10)};
   for (const auto& [name, role, off] : markers) {
     const std::size_t at = name.find('?');
@@ -44,7 +45,7 @@ MarkerMotion Take(const std::vector<Placed>& markers, const std::string& left = 
 }
 
 /// Helen Hayes: front spines and sacrum so that Harrington's regression gives exactly the hips of Standing.
-std::vector<Placed> HelenHayes() {
+std::vector<SkinMarker> HelenHayes() {
   // Half the width w of the pelvis follows from 0.33·w + 7.3 mm = 90 mm, its height and depth from the other two rows.
   const double w = (0.09 - 0.0073) / 0.33, depth = 0.15, up = 0.30 * w + 0.0109, ahead = 0.24 * depth + 0.0099;
   return {{"Front.Head", kHead, {0, 0, 0.1}},          {"Rear.Head", kHead, {0, 0, -0.1}},
@@ -69,7 +70,7 @@ std::pair<double, Role> Furthest(const MarkerBody& body) {
 TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
   for (const auto& [left, right] :
        {std::pair("L.", "R."), {"L_", "R_"}, {"L", "R"}, {"left_", "right_"}, {"l ", "r "}}) {
-    const auto bodies = FindMarkerBodies(Take(HelenHayes(), left, right), "a.trc");
+    const auto bodies = FindMarkerBodies(TakeOfSkin(HelenHayes(), left, right), "a.trc");
     ASSERT_TRUE(bodies) << left << ToString(bodies.error());
     const auto [distance, role] = Furthest(bodies->front());
     EXPECT_LT(distance, 0.02) << left << RoleName(role);
@@ -85,10 +86,10 @@ TEST(HelenHayes, GivesTheHipsOfThePelvisWhateverItsNamesLookLike) {
 }
 
 TEST(HelenHayes, JointsWithAnInnerMarkerAreMidwayAndStay) {
-  std::vector<Placed> markers = HelenHayes();
+  std::vector<SkinMarker> markers = HelenHayes();
   markers.push_back({"?Knee.Medial", kLeftKnee, {-0.05, 0, 0}});
   markers.push_back({"?Ankle.Medial", kLeftAnkle, {-0.036, 0, 0}});
-  ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
+  ASSERT_OK(bodies, FindMarkerBodies(TakeOfSkin(markers), "a.trc"));
   const MarkerBody& body = bodies->front();
   for (const Role role : {kLeftKnee, kRightKnee, kLeftAnkle, kRightAnkle}) {
     const glm::dvec3 wanted = testing::StandingPerson()[role] - glm::dvec3(0, body.floor, 0);
@@ -98,35 +99,35 @@ TEST(HelenHayes, JointsWithAnInnerMarkerAreMidwayAndStay) {
   EXPECT_THAT(body.Note(), HasSubstr("elbows"));
   // An inner marker on the knees only: the ankles still move under the skin.
   markers.pop_back();
-  ASSERT_OK(knees, FindMarkerBodies(Take(markers), "a.trc"));
+  ASSERT_OK(knees, FindMarkerBodies(TakeOfSkin(markers), "a.trc"));
   EXPECT_LT(Furthest(knees->front()).first, 0.02);
 }
 
 TEST(HelenHayes, WithoutAPelvisTakesTheFilesHipCentresOrIsRefused) {
-  std::vector<Placed> markers = HelenHayes();
-  std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre; });
-  const std::string refusal = testing::Refusal(FindMarkerBodies(Take(markers), "a.trc"));
+  std::vector<SkinMarker> markers = HelenHayes();
+  std::erase_if(markers, [](const SkinMarker& one) { return one.role == kHipCentre; });
+  const std::string refusal = testing::Refusal(FindMarkerBodies(TakeOfSkin(markers), "a.trc"));
   EXPECT_THAT(refusal,
               HasSubstr("nearest: skin markers (Helen Hayes) lacks left_hip, right_hip; markers on thighs, shanks and "
                         "upper arms do not determine joints"));
   EXPECT_THAT(refusal, HasSubstr("use a joint map (--joint-map) to state which markers are the joints"));
   markers.push_back({"V_?Hip_JC", kLeftHip});
-  ASSERT_OK(bodies, FindMarkerBodies(Take(markers), "a.trc"));
+  ASSERT_OK(bodies, FindMarkerBodies(TakeOfSkin(markers), "a.trc"));
   EXPECT_LT(Furthest(bodies->front()).first, 0.02);
   // Markers that the user takes as joints are not moved.
   markers.push_back({"?KneeCentre", kLeftKnee});
-  ASSERT_OK(told, FindMarkerBodies(Take(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
+  ASSERT_OK(told, FindMarkerBodies(TakeOfSkin(markers), "a.trc", {.roles = {{kLeftKnee, "L.KneeCentre"}}}));
   EXPECT_LT(glm::distance(told->front().motion.poses.front()[kLeftKnee],
                           testing::StandingPerson()[kLeftKnee] - glm::dvec3(0, told->front().floor, 0)),
             1e-9);
 }
 
 TEST(SkinMarkers, NamedLikeKeypointsAreNotKeypoints) {
-  std::vector<Placed> markers = HelenHayes();
-  for (Placed& one : markers) std::erase(one.name, '.');
+  std::vector<SkinMarker> markers = HelenHayes();
+  for (SkinMarker& one : markers) std::erase(one.name, '.');
   markers.push_back({"?PSIS", kHipCentre, {0.05, 0.09, -0.1}});
   markers.push_back({"?Hip", kLeftHip, {0.07, 0, 0}});
-  ASSERT_OK(skin, FindMarkerBodies(Take(markers, "L", "R"), "a.trc"));
+  ASSERT_OK(skin, FindMarkerBodies(TakeOfSkin(markers, "L", "R"), "a.trc"));
   EXPECT_THAT(skin->front().Note(), HasSubstr("skin markers"));
   EXPECT_LT(glm::distance(skin->front().motion.poses.front()[kLeftHip],
                           testing::StandingPerson()[kLeftHip] - glm::dvec3(0, skin->front().floor, 0)),
@@ -135,13 +136,13 @@ TEST(SkinMarkers, NamedLikeKeypointsAreNotKeypoints) {
   for (const char* name : {"MidHip", "Neck"}) markers.push_back({name, name[0] == 'N' ? kShoulderCentre : kHipCentre});
   markers.push_back({"?Ear", kHead, {0.07, 0, 0}});
   markers.push_back({"?BigToe", kLeftFoot});
-  EXPECT_THAT(FindMarkerBodies(Take(markers, "L", "R"), "a.trc")->front().Note(), HasSubstr("OpenPose BODY_25"));
+  EXPECT_THAT(FindMarkerBodies(TakeOfSkin(markers, "L", "R"), "a.trc")->front().Note(), HasSubstr("OpenPose BODY_25"));
 }
 
 TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
-  const std::vector<Placed> pelvis = {{"?ASI", kHipCentre, {0.125, 0.0861, 0.0459}},
-                                      {"?PSI", kHipCentre, {0.05, 0.0861, -0.1041}}};
-  using Rows = std::vector<Placed>;
+  const std::vector<SkinMarker> pelvis = {{"?ASI", kHipCentre, {0.125, 0.0861, 0.0459}},
+                                          {"?PSI", kHipCentre, {0.05, 0.0861, -0.1041}}};
+  using Rows = std::vector<SkinMarker>;
   for (const Rows& rows : {Rows{{"?ACR", kLeftShoulder, {0, 0.045, 0}},
                                 {"?LEL", kLeftElbow, {0.04, 0, 0}},
                                 {"?MEL", kLeftElbow, {-0.04, 0, 0}},
@@ -172,7 +173,7 @@ TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
                                 {"?_mankle", kLeftAnkle, {-0.036, 0, 0}}}}) {
     Rows markers = pelvis;
     markers.insert(markers.end(), rows.begin(), rows.end());
-    const auto bodies = FindMarkerBodies(Take(markers, "L", "R"), "a.trc");
+    const auto bodies = FindMarkerBodies(TakeOfSkin(markers, "L", "R"), "a.trc");
     ASSERT_TRUE(bodies) << ToString(bodies.error());
     for (const Role role : {kLeftElbow, kRightElbow, kLeftWrist, kRightKnee, kLeftKnee, kRightAnkle, kLeftAnkle}) {
       const glm::dvec3 wanted = testing::StandingPerson()[role] - glm::dvec3(0, bodies->front().floor, 0);
@@ -184,7 +185,7 @@ TEST(SkinMarkers, OfOpenSimAndOfOtherLabsAreRead) {
 
 TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
   // Millimetres are stated, metres are stored: the regression's millimetres must not count as the body's size.
-  MarkerMotion take = Take(HelenHayes());
+  MarkerMotion take = TakeOfSkin(HelenHayes());
   const double stature = Stature(FindMarkerBodies(take, "a.c3d")->front().motion.poses.front());
   take.metres_per_unit = 0.001;
   for (auto& frame : take.frames) {
@@ -199,25 +200,25 @@ TEST(SkinMarkers, HaveTheirOwnSizeInMessagesAboutTheUnit) {
 }
 
 TEST(AThighMarker, BetweenPelvisAndKneeIsNeverAHip) {
-  std::vector<Placed> markers = HelenHayes();
-  std::erase_if(markers, [](const Placed& one) { return one.role == kHipCentre || one.name == "?Shank"; });
+  std::vector<SkinMarker> markers = HelenHayes();
+  std::erase_if(markers, [](const SkinMarker& one) { return one.role == kHipCentre || one.name == "?Shank"; });
   EXPECT_THAT(
-      testing::Refusal(FindMarkerBodies(Take(markers), "a.trc")),
+      testing::Refusal(FindMarkerBodies(TakeOfSkin(markers), "a.trc")),
       HasSubstr(
           "L.Thigh is on the thigh instead of the hip, because its distance from L.Knee is 0.49 times the distance "
           "from that marker to L.Ankle; allowed: "));
   // The control: "thigh" at the hip, as bones are called.
-  for (Placed& one : markers) {
+  for (SkinMarker& one : markers) {
     if (one.name == "?Thigh") one = {"?Thigh", kLeftHip};
   }
-  ASSERT_OK(bones, FindMarkerBodies(Take(markers), "a.trc"));
+  ASSERT_OK(bones, FindMarkerBodies(TakeOfSkin(markers), "a.trc"));
   EXPECT_THAT(bones->front().Note(), HasSubstr("joint names of a skeleton"));
 }
 
 /// The names of a laboratory or a device: of the pelvis, front and back; of the limbs; and what stands for '?'.
 struct Lab {
   const char *front, *back, *left, *right, *set;
-  std::vector<Placed> limbs;
+  std::vector<SkinMarker> limbs;
 };
 
 TEST(SkinMarkers, OfLabsWithTheirOwnNamesOfThePelvisAreRead) {
@@ -226,14 +227,14 @@ TEST(SkinMarkers, OfLabsWithTheirOwnNamesOfThePelvisAreRead) {
   const auto paired = [](const char* shoulder, const std::vector<std::array<const char*, 2>>& names) {
     constexpr std::pair<Role, glm::dvec3> kJoints[] = {
         {kLeftElbow, {0.04, 0, 0}}, {kLeftWrist, {0, 0, 0.03}}, {kLeftKnee, {0.05, 0, 0}}, {kLeftAnkle, {0.036, 0, 0}}};
-    std::vector<Placed> markers = {{shoulder, kLeftShoulder, {0, 0.045, 0}}};
+    std::vector<SkinMarker> markers = {{shoulder, kLeftShoulder, {0, 0.045, 0}}};
     for (std::size_t i = 0; i < names.size(); ++i) {
       markers.push_back({names[i][0], kJoints[i].first, kJoints[i].second});
       markers.push_back({names[i][1], kJoints[i].first, -kJoints[i].second});
     }
     return markers;
   };
-  const auto gait = [](std::vector<Placed> markers) {
+  const auto gait = [](std::vector<SkinMarker> markers) {
     markers.push_back({"?SHO", kLeftShoulder, {0, 0.045, 0}});
     markers.push_back({"?ELB", kLeftElbow, {0.04, 0, 0}});
     markers.push_back({"?KNE", kLeftKnee, {0.05, 0, 0}});
@@ -260,19 +261,19 @@ TEST(SkinMarkers, OfLabsWithTheirOwnNamesOfThePelvisAreRead) {
        }) {
     lab.limbs.push_back({lab.front, kHipCentre, {0.125, 0.0861, 0.0459}});
     lab.limbs.push_back({lab.back, kHipCentre, {0.05, 0.0861, -0.1041}});
-    ASSERT_OK(bodies, FindMarkerBodies(Take(lab.limbs, lab.left, lab.right), "a.c3d"));
+    ASSERT_OK(bodies, FindMarkerBodies(TakeOfSkin(lab.limbs, lab.left, lab.right), "a.c3d"));
     EXPECT_THAT(bodies->front().Note(), ::testing::StartsWith(lab.set));
     const auto [distance, role] = Furthest(bodies->front());
     EXPECT_LT(distance, 0.02) << lab.front << ": " << RoleName(role);
   }
   // Joint centres that a laboratory has computed are joints.
-  ASSERT_OK(centres, FindMarkerBodies(Take({{"?HJC", kLeftHip},
-                                            {"?KJC", kLeftKnee},
-                                            {"?AJC", kLeftAnkle},
-                                            {"?SJC", kLeftShoulder},
-                                            {"?EJC", kLeftElbow},
-                                            {"?WJC", kLeftWrist}},
-                                           "L", "R"),
+  ASSERT_OK(centres, FindMarkerBodies(TakeOfSkin({{"?HJC", kLeftHip},
+                                                  {"?KJC", kLeftKnee},
+                                                  {"?AJC", kLeftAnkle},
+                                                  {"?SJC", kLeftShoulder},
+                                                  {"?EJC", kLeftElbow},
+                                                  {"?WJC", kLeftWrist}},
+                                                 "L", "R"),
                                       "a.c3d"));
   EXPECT_THAT(centres->front().Note(), ::testing::StartsWith("joint names of a skeleton"));
   EXPECT_LT(Furthest(centres->front()).first, 1e-9);

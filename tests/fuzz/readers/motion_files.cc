@@ -10,6 +10,7 @@
 #include "engine/formats/motion_bids.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
+#include "engine/formats/point_table.h"
 #include "engine/formats/rigid_targets.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/character.h"
@@ -100,6 +101,9 @@ std::string BidsSeed() {
 }
 
 void Csv(std::string_view bytes) { ReadJointCsv(bytes, kFile); }
+void Table(std::string_view bytes) {
+  if (IsPointTable(bytes)) ReadPointTable(bytes, kFile);
+}
 void Targets17(std::string_view bytes) { ReadRigidTargets(bytes, kFile); }
 
 std::string RigidRows() {
@@ -234,6 +238,10 @@ std::vector<Target> MotionTargets() {
            R"(data:application/octet-stream;base64,^"weights"^"targets"^-1)")},
       {"trc", Trc, [] { return std::vector{WriteTrc(testing::WavingMotion(3), "seed")}; }, {"Units", "cm", "nan"}},
       {"motion-bids", Bids, [] { return std::vector{BidsSeed()}; }, {"n/a", "ORNT", "mm", "nan"}},
+      {"point-table",
+       Table,
+       [] { return std::vector<std::string>{"frame,time,a_x,a_y,a_z,b_x,b_y,b_z,cX,cY,cZ\n0,0,1,2,3,4,5,6,7,8,9\n"}; },
+       {"nan", "_mm", "time (ms)", "person"}},
       {"joint-csv", Csv, [] { return std::vector{WriteJointCsv(testing::WavingMotion(3))}; }, {"nan", "1e400"}},
       {"rigid-targets", Targets17, [] { return std::vector{RigidRows()}; }, {"nan"}},
       {"deepmimic", DeepMimic, [] { return std::vector{DeepMimicText()}; }},
