@@ -225,8 +225,9 @@ int main(int argc, char** argv) {
   etude::MakeOutputSafe();
   try {
     const int code = etude::Main(argc, argv);
-    if (std::fflush(stdout) == 0) return code;
-    return etude::Complain(etude::CannotWrite("standard output", "cannot be written", errno).value());
+    if (std::fflush(stdout) == 0 && etude::OutputError() == 0) return code;
+    const int error = etude::OutputError() != 0 ? etude::OutputError() : errno;
+    return etude::Complain(etude::CannotWrite("standard output", "cannot be written", error).value());
   } catch (const std::bad_alloc&) {
     return etude::Complain(etude::FailOfMachine("out of memory").value());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -32,11 +32,16 @@ std::size_t BegunAtEnd(std::string_view text) {
   return 0;
 }
 
+int first_error = 0;
+
 bool WriteAll(std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(STDOUT_FILENO, text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
+    if (count <= 0) {
+      if (first_error == 0) first_error = errno;
+      return false;
+    }
     text.remove_prefix(static_cast<std::size_t>(count));
   }
   return true;
@@ -52,6 +57,8 @@ ssize_t WriteShown(void*, const char* bytes, std::size_t size) {
 int CloseShown(void*) { return WriteAll(Visible(BegunCharacter(), kKeptControls)) ? 0 : EOF; }
 
 }  // namespace
+
+int OutputError() { return first_error; }
 
 void MakeOutputSafe() {
   std::FILE* const output =

@@ -7,4 +7,7 @@ namespace etude {
 /// characters.
 void MakeOutputSafe();
 
+/// Returns the `errno` of the first write to `stdout` that failed; 0 if none failed. A later flush does not report it.
+int OutputError();
+
 }  // namespace etude

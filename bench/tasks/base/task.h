@@ -109,10 +109,13 @@ struct JudgedFiles {
   friend bool operator==(const JudgedFiles&, const JudgedFiles&) = default;
 };
 
+/// A file or folder that a task left out, and the reason.
+using LeftOutFile = std::pair<std::string, std::string>;
+
 /// The worlds that a task found, and the files that it left out.
 struct FoundFiles {
   std::vector<JudgedFiles> worlds;
-  std::vector<std::pair<std::string, std::string>> left_out;  ///< a file, and the reason why it was left out
+  std::vector<LeftOutFile> left_out;
 };
 
 /// The parts of a scenario from which a task is made.

@@ -1,11 +1,14 @@
 #include "bench/tasks/evaluation/find_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
 #include "bench/tasks/evaluation/options.h"
 #include "engine/base/csv.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "io/clips/references.h"
 
@@ -17,13 +20,30 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPerson = "{person}";
 
 /// The extensions of motion files. A folder stands for its files with one of these extensions.
-constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz",
-                                         ".npy", ".c3d", ".trc",  ".csv", ".mot", ".vrm"};
+constexpr std::string_view kEndings[] = {".bvh", ".glb", ".gltf", ".fbx", ".amc", ".npz", ".npy",
+                                         ".c3d", ".trc", ".csv",  ".mot", ".vrm", ".vrma"};
 
 constexpr std::string_view kBidsEnding = "_motion.tsv", kBidsHead = "dataset_description.json";
 
-/// Lists the motion files of a folder, sorted. For a BIDS data set, lists the recordings of all people.
-std::vector<std::string> FilesIn(const std::string& folder) {
+/// Returns true if a file has the extension of a motion file, in any case, and is not hidden.
+bool IsMotionFile(const fs::path& path) {
+  const bool is_known = std::ranges::find(kEndings, InLowerCase(path.extension().string())) != std::end(kEndings);
+  return (is_known || path.string().ends_with(kBidsEnding)) && !path.filename().string().starts_with('.');
+}
+
+/// Returns the number of motion files in and below a folder.
+std::size_t CountMotionFiles(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    count += IsMotionFile(entry->path()) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Lists the motion files of a folder, sorted. For a BIDS data set, lists the recordings of all people. Adds folders
+/// inside with motion files to `left_out`.
+std::vector<std::string> FilesIn(const std::string& folder, std::vector<LeftOutFile>& left_out) {
   std::vector<std::string> files;
   std::error_code error;
   if (fs::exists(fs::path(folder) / kBidsHead, error)) {
@@ -34,10 +54,15 @@ std::vector<std::string> FilesIn(const std::string& folder) {
     return files;
   }
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string ending = entry->path().extension().string();
-    const bool is_known = std::ranges::find(kEndings, ending) != std::end(kEndings);
-    if (is_known || entry->path().string().ends_with(kBidsEnding)) files.push_back(entry->path().string());
+    const fs::path& path = entry->path();
+    if (IsMotionFile(path)) files.push_back(path.string());
+    if (!entry->is_directory(error) || path.filename().string().starts_with('.')) continue;
+    if (const std::size_t count = CountMotionFiles(path); count > 0) {
+      left_out.emplace_back(path.string(), fmt::format("a folder in a folder, with {} motion file{}; name it, too",
+                                                       count, count == 1 ? "" : "s"));
+    }
   }
+  std::ranges::sort(left_out);
   std::ranges::sort(files);
   return files;
 }
@@ -82,12 +107,12 @@ std::string NameOfReference(const std::string& reference) {
 }
 
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
-                                             const Place& place) {
+                                             const Place& place, std::vector<LeftOutFile>& left_out) {
   std::vector<std::string> files;
   for (const std::string& reference : references) {
     std::error_code none;
     if (fs::is_directory(reference, none) && reference.find('#') == std::string::npos) {
-      const std::vector<std::string> inside = FilesIn(reference);
+      const std::vector<std::string> inside = FilesIn(reference, left_out);
       for (const std::string& file : inside) {
         if (!CheckUtf8(file, "")) return Fail(place, "{} has a name that is not UTF-8 text", Quote(file));
       }
@@ -204,9 +229,9 @@ bool NamesOneFile(const std::vector<std::string>& references) {
 /// Pairs truths and answers whose files have the same name. `nodes` are the mappings of the methods.
 Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const EvaluationMethod> methods,
                               std::span<const Node> nodes, const Place& place) {
-  ASSIGN_OR_RETURN(const auto truth_files, ExpandFiles(options.truth, Links::kAllowed, place));
-  ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   FoundFiles found;
+  ASSIGN_OR_RETURN(const auto truth_files, ExpandFiles(options.truth, Links::kAllowed, place, found.left_out));
+  ASSIGN_OR_RETURN(const auto truths, ByName(truth_files, place));
   for (const auto& [name, truth] : truths) {
     found.worlds.push_back({.name = name, .unit = "", .truth = truth, .answers = {}});
   }
@@ -218,7 +243,7 @@ Result<FoundFiles> PairByName(const EvaluationOptions& options, std::span<const 
     }
     if (method.answers.empty()) return Fail(nodes[m].place, "method {} has no 'answers'", Quote(method.name));
     const Place& of_answers = nodes[m].Find("answers")->place;
-    ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, of_answers));
+    ASSIGN_OR_RETURN(const auto files, ExpandFiles(method.answers, Links::kRefused, of_answers, found.left_out));
     // A single truth and a single answer are a pair, whatever their names, if the scenario names these two files
     // itself.
     const bool are_named = NamesOneFile(options.truth) && NamesOneFile(method.answers);

@@ -29,10 +29,11 @@ Result<FoundFiles> FindEvaluatedFiles(const Node& condition, std::span<const Nod
 enum class Links { kAllowed, kRefused };
 
 /// Lists the files that references stand for, in the order of the references. A folder stands for the motion files in
-/// it, a BIDS data set for the recordings of all people. Fails at `place` if a reference stands for no file or for more
+/// it, a BIDS data set for the recordings of all people. Folders in a folder are not searched; those with motion files
+/// are added to `left_out`. Fails at `place` if a reference stands for no file or for more
 /// than kMaxPairs files, or if a file is a link and links are refused.
 Result<std::vector<std::string>> ExpandFiles(const std::vector<std::string>& references, Links links,
-                                             const Place& place);
+                                             const Place& place, std::vector<LeftOutFile>& left_out);
 
 /// Returns the name of a reference: its file name without folder and extension, with the clip after '#'. The name of a
 /// Motion-BIDS recording leaves out the tracking system, so that truth and answers have the same name.

@@ -78,10 +78,10 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
     if (condition.Find(key) == nullptr) return Fail(condition.place, "task inbetween needs '{}'", key);
   }
   const Place &place = condition.Find("truth")->place, &training_place = condition.Find("training")->place;
-  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.truth, Links::kAllowed, place));
-  ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, training_place));
-  // List the windows.
   FoundFiles found;
+  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.truth, Links::kAllowed, place, found.left_out));
+  ASSIGN_OR_RETURN(const auto training, ExpandFiles(options.training, Links::kAllowed, training_place, found.left_out));
+  // List the windows.
   std::map<std::string, std::string> named, trained, judged;
   for (const std::string& file : training) trained.emplace(IdentityOf(file), file);
   for (const std::string& file : files) {
@@ -116,7 +116,7 @@ Result<FoundFiles> FindWindows(const Node& condition, std::span<const Node> meth
                                                   options.window, options.window + 1));
   }
   if (found.worlds.empty()) {
-    return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.front().second);
+    return Fail(place, "no file has a window of {} frames: {}", options.window, found.left_out.back().second);
   }
   if (!options.people.empty()) {
     // FindPeople's pattern is for the file's name. In the names of windows, '@' and the first frame follow the file's
@@ -163,7 +163,8 @@ std::vector<TreePose> PlacedWindow(std::span<const TreePose> poses, int first, i
 
 Result<std::vector<TrainingTree>> Train(const InbetweenOptions& options, const OpenOptions& opening,
                                         GapLibrary* library) {
-  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.training, Links::kAllowed, {}));
+  std::vector<LeftOutFile> reported;  // FindWindows has reported the files that were left out
+  ASSIGN_OR_RETURN(const auto files, ExpandFiles(options.training, Links::kAllowed, {}, reported));
   constexpr std::size_t kMaxLibraryFrames = 200'000;  // about half a gigabyte
   std::vector<TrainingTree> trees;
   std::size_t frames = 0;

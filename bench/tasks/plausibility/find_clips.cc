@@ -7,6 +7,7 @@
 #include "bench/tasks/evaluation/find_files.h"
 #include "bench/tasks/plausibility/options.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "io/clips/open_clip.h"
 #include "io/clips/references.h"
 
@@ -32,7 +33,7 @@ std::string FixedFolder(const std::string& pattern) {
 std::vector<std::string> ClipsIn(const std::string& reference) {
   constexpr std::array kOfSeveral = {".glb", ".gltf", ".fbx", ".vrm", ".vrma", ".c3d", ".trc"};
   const SplitReference split = Split(reference);
-  const std::string ending = fs::path(split.path).extension().string();
+  const std::string ending = InLowerCase(fs::path(split.path).extension().string());
   if (split.animation || std::ranges::find(kOfSeveral, ending) == kOfSeveral.end()) return {reference};
   const auto clips = ReadClips(reference);
   if (!clips || clips->size() < 2) return {reference};
@@ -41,10 +42,11 @@ std::vector<std::string> ClipsIn(const std::string& reference) {
   return sources;
 }
 
-Result<std::vector<LoneClip>> ClipsOf(const PlausibilityMethod& method, const Place& place) {
+Result<std::vector<LoneClip>> ClipsOf(const PlausibilityMethod& method, const Place& place,
+                                      std::vector<LeftOutFile>& left_out) {
   std::vector<LoneClip> clips;
   for (const std::string& pattern : method.answers) {
-    ASSIGN_OR_RETURN(const auto files, ExpandFiles({pattern}, Links::kAllowed, place));
+    ASSIGN_OR_RETURN(const auto files, ExpandFiles({pattern}, Links::kAllowed, place, left_out));
     const std::string fixed = FixedFolder(pattern);
     const bool has_wildcard = pattern.find_first_of("*?[") != std::string::npos;
     for (const std::string& file : files) {
@@ -88,6 +90,7 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
     return Fail(trials->place, "'trials' is not allowed in task plausibility, because each clip is judged once");
   }
   // Find the clips of each method, and collect the worlds by name.
+  FoundFiles found;
   std::map<std::string, std::vector<std::string>> answers;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     Fields keys(methods[m], "a method of task plausibility");
@@ -97,7 +100,7 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
     RETURN_IF_ERROR(keys.Finish());
     const Node* of_answers = methods[m].Find("answers");
     const Place& place = of_answers == nullptr ? methods[m].place : of_answers->place;
-    ASSIGN_OR_RETURN(const auto clips, ClipsOf(method, place));
+    ASSIGN_OR_RETURN(const auto clips, ClipsOf(method, place, found.left_out));
     ASSIGN_OR_RETURN(const auto named, ByName(clips, place));
     for (const auto& [name, reference] : named) {
       std::vector<std::string>& of_name = answers[name];
@@ -105,7 +108,6 @@ Result<FoundFiles> FindLoneClips(const Node& condition, std::span<const Node> me
       of_name[m] = reference;
     }
   }
-  FoundFiles found;
   for (auto& [name, of_name] : answers) {
     found.worlds.push_back({.name = name, .unit = "", .truth = "", .answers = std::move(of_name)});
   }

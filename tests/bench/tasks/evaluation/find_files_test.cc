@@ -51,6 +51,16 @@ TEST_F(FindFilesTest, FilesOfOneNameAreAPair) {
   EXPECT_EQ(found->left_out[0].first, In("n/c.csv"));
 }
 
+TEST_F(FindFilesTest, AFolderStandsForItsFilesInAnyCaseAndTellsOfFoldersInside) {
+  Make({"t/a.BVH", "t/.a.bvh", "t/old/b.bvh", "t/old/older/c.npz", "t/empty/notes.md", "m/a.trc"});
+  const auto found = Find("truth: ['@/t']", {"{name: m, answers: ['@/m']}"});
+  ASSERT_TRUE(found) << ToString(found.error());
+  ASSERT_EQ(found->worlds.size(), 1u);
+  EXPECT_EQ(found->worlds[0].truth, In("t/a.BVH"));
+  ASSERT_EQ(found->left_out.size(), 1u);
+  EXPECT_EQ(found->left_out[0], LeftOutFile(In("t/old"), "a folder in a folder, with 2 motion files; name it, too"));
+}
+
 TEST_F(FindFilesTest, OneTruthAndOneAnswerAreAPairWhateverTheirNames) {
   Make({"truth.bvh", "mine.bvh"});
   const auto found = Find("truth: ['@/truth.bvh']", {"{name: m, answers: ['@/mine.bvh']}"});
