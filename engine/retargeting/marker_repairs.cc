@@ -8,6 +8,7 @@
 #include <optional>
 #include <ranges>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -148,7 +149,22 @@ std::vector<std::string> NamesOfSeveral(const MarkerMotion& markers) {
   return {several.begin(), several.end()};
 }
 
+std::string DescribeNamesOfSeveral(const MarkerMotion& markers) {
+  const std::vector<std::string> several = NamesOfSeveral(markers);
+  if (several.empty()) return "";
+  constexpr std::size_t kListed = 3;
+  const std::span<const std::string> first(several.data(), std::min(several.size(), kListed));
+  return fmt::format("several markers have the name {}{}; Etude uses the first marker of each name", Join(first),
+                     several.size() > kListed ? ", …" : "");
+}
+
 }  // namespace
+
+std::string DescribeEqualNames(const MarkerMotion& markers, const std::set<std::size_t>& used) {
+  const bool is_used = std::ranges::any_of(
+      used, [&](std::size_t column) { return std::ranges::count(markers.names, markers.names[column]) > 1; });
+  return is_used ? DescribeNamesOfSeveral(markers) : "";
+}
 
 void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
   const auto remark = [&](const std::string& text) { markers.remark += (markers.remark.empty() ? "" : "; ") + text; };
@@ -161,13 +177,8 @@ void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used) {
   if (const int equal = LeaveEqualNumbersOut(markers); equal > 0) {
     remark(fmt::format("Etude treats {} repeated positions of three equal numbers as missing", equal));
   }
-  if (const auto several = NamesOfSeveral(markers); !several.empty()) {
-    constexpr std::size_t kListed = 3;
-    const std::vector<std::string> first(
-        several.begin(), several.begin() + static_cast<std::ptrdiff_t>(std::min(several.size(), kListed)));
-    remark(fmt::format("several markers have the name {}{}; Etude uses the first marker of each name", Join(first),
-                       several.size() > kListed ? ", …" : ""));
-  }
+  const std::string equal_names = DescribeNamesOfSeveral(markers);
+  if (!equal_names.empty() && DescribeEqualNames(markers, used).empty()) remark(equal_names);
 }
 
 }  // namespace etude

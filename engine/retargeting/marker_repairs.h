@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <set>
+#include <string>
 
 #include "engine/formats/trc.h"
 
@@ -15,7 +16,11 @@ namespace etude {
 ///
 /// `used` lists the columns from which the middle and the usual distances are computed; empty: all columns, although
 /// some columns of a C3D file may contain angles and forces. Appends a text about these changes, and about names that
-/// several markers share, to the motion's `remark`.
+/// several markers share (unless DescribeEqualNames does), to the motion's `remark`.
 void RepairMarkers(MarkerMotion& markers, const std::set<std::size_t>& used = {});
+
+/// Describes names that several markers share, if one of them is in a used column: the markers may be of two people.
+/// Otherwise returns "".
+std::string DescribeEqualNames(const MarkerMotion& markers, const std::set<std::size_t>& used);
 
 }  // namespace etude

@@ -410,7 +410,9 @@ std::string DescribeUnknownMarkers(const MarkerMotion& markers, const MarkerOpti
 
 Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file,
                                                  const MarkerOptions& options) {
-  RepairMarkers(markers, UsedColumns(FindMarkerPeople(markers, options.set, options.roles)));
+  const std::set<std::size_t> used = UsedColumns(FindMarkerPeople(markers, options.set, options.roles));
+  RepairMarkers(markers, used);
+  const std::string equal_names = DescribeEqualNames(markers, used);
   // Choose the marker set of each person, and make the body from it.
   std::vector<MarkerBody> bodies;
   const std::vector<MarkerPerson> people = FindMarkerPeople(markers, options.set, options.roles);
@@ -427,6 +429,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
           fmt::format(" (the file also contains {}; --marker-set {} chooses this set)", other->name, other->key);
     }
     if (!person.remark.empty()) body->changes.push_back(person.remark);
+    body->Doubt(equal_names);
     for (const MarkerPerson& other : people) {
       if (&other == &person) continue;
       body->Doubt(DescribeExchangedMarkers(markers, person.columns, other.columns));

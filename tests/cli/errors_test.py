@@ -136,10 +136,14 @@ class Errors(EtudeCase):
         self.assertEqual(json.loads(facts)["clips"][0]["source"], str(clip))
 
     def test_a_full_output_is_told(self):
-        with open("/dev/full", "w") as full:
-            result = subprocess.run([ETUDE, "list", "metrics"], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(result.returncode, 3)
-        self.assertIn("No space left on device", result.stderr)
+        clip = self.folder / "clap.csv"
+        self.etude("clip", "convert", "builtin:clap", clip)
+        # The coach writes each line at once, so a write before the last one fails.
+        for words in (["list", "metrics"], ["coach", "warm_up", "--now", "--stream", clip]):
+            with open("/dev/full", "w") as full:
+                result = subprocess.run([ETUDE, *words], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(result.returncode, 3, words)
+            self.assertIn("No space left on device", result.stderr)
 
     def test_a_run_that_cannot_write_leaves_no_folder(self):
         path = self.write("s.yaml", IK)

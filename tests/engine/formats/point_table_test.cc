@@ -78,7 +78,7 @@ TEST(PointTable, LeavesOtherQuantitiesOut) {
 TEST(PointTable, HasPeopleInSeparateFiles) {
   const std::string heading = "person,a_x,a_y,a_z,b_x,b_y,b_z,c_x,c_y,c_z\n", place = ",0,10,20,1,11,21,2,12,22\n";
   EXPECT_EQ(Complaint(heading + "4" + place + "5" + place + "4" + place),
-            "t.csv:3: the column person goes from 4 to 5; allowed: the rows of one person");
+            "t.csv:3: the column 'person' goes from 4 to 5; allowed: the rows of one person");
   EXPECT_TRUE(ReadPointTable(heading + "4" + place + "4" + place, "t.csv"));
   EXPECT_TRUE(ReadPointTable(heading + "4" + place + "5" + place + "6" + place, "t.csv")) << "the column counts rows";
 }
@@ -86,13 +86,13 @@ TEST(PointTable, HasPeopleInSeparateFiles) {
 TEST(PointTable, IsRefusedWithTheReason) {
   const std::string whole = "a_x,a_y,a_z,b_x,b_y,b_z,c_x,c_y,c_z";
   EXPECT_EQ(Complaint(whole + ",d_x,d_y\n0,0,0,0,0,0,0,0,0,0,0\n"),
-            "t.csv:1: found no z of the point d; allowed: x, y and z of each point");
-  EXPECT_EQ(Complaint(whole + ",a_x\n0,0,0,0,0,0,0,0,0,0\n"), "t.csv:1: found x of the point a twice");
+            "t.csv:1: found no z of the point 'd'; allowed: x, y and z of each point");
+  EXPECT_EQ(Complaint(whole + ",a_x\n0,0,0,0,0,0,0,0,0,0\n"), "t.csv:1: found x of the point 'a' twice");
   EXPECT_EQ(Complaint(whole + ",d_x_mm,d_y_mm,d_z_mm\n0,0,0,0,0,0,0,0,0,0,0,0\n"),
-            "t.csv:1: found the headings a_x and d_x_mm; allowed: the same unit in all headings");
+            "t.csv:1: found the headings 'a_x' and 'd_x_mm'; allowed: the same unit in all headings");
   EXPECT_EQ(Complaint(whole + ",time\n0,0,0,0,0,0,0,0,0,12:30\n"),
-            "t.csv:2: column time: found 12:30; allowed: a number, or nan for a missing value");
-  EXPECT_THAT(Complaint(whole + "\n0,0,0,2e9,0,0,0,0,0\n"), HasSubstr("t.csv:2: x of b: found 2000000000; allowed"));
+            "t.csv:2: column 'time': found '12:30'; allowed: a number, or nan for a missing value");
+  EXPECT_THAT(Complaint(whole + "\n0,0,0,2e9,0,0,0,0,0\n"), HasSubstr("t.csv:2: x of 'b': found 2000000000; allowed"));
   // Two points, points without z, or one column a quantity are no such table.
   for (const char* other : {"a_x,a_y,a_z,b_x,b_y,b_z\n", "a_x,a_y,b_x,b_y,c_x,c_y\n", "frame,x,y,z\n", "1,2,3\n", ""}) {
     EXPECT_FALSE(IsPointTable(other)) << other;

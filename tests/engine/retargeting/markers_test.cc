@@ -284,6 +284,16 @@ TEST(Markers, WithNumbersForGapsTwiceTheSameNameOrExchangedSidesAreSaid) {
   twice.names.push_back(twice.names.front());
   for (auto& frame : twice.frames) frame.push_back(frame.front());
   EXPECT_THAT(changes(twice), HasSubstr("several markers have the name " + twice.names.front()));
+  // If a joint comes from such a marker, it may be another person's: this is a doubt.
+  ASSERT_OK(bodies, FindMarkerBodies(twice, "a.trc", {.up = TrcUp()}));
+  EXPECT_THAT(bodies->front().doubts, ::testing::Contains(HasSubstr("several markers have the name")));
+  MarkerMotion unlabelled = markers;
+  for (int i = 0; i < 2; ++i) {
+    unlabelled.names.emplace_back("*");
+    for (auto& frame : unlabelled.frames) frame.push_back(frame.front());
+  }
+  ASSERT_OK(same, FindMarkerBodies(unlabelled, "a.trc", {.up = TrcUp()}));
+  EXPECT_THAT(same->front().doubts, Not(::testing::Contains(HasSubstr("several markers have the name"))));
   const auto mirrored = [](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, p.z); };
   EXPECT_THAT(changes(Keypoints(poses, mirrored)), HasSubstr("left and right are exchanged, or an axis is mirrored"));
 }

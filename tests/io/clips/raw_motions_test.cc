@@ -139,7 +139,7 @@ std::string NpzOf(const MarkerMotion& markers) {
 
 /// Writes a table with millimetres, which its headings do not state.
 std::string TableOf(const MarkerMotion& markers) {
-  std::string text = "timestamp";
+  std::string text = "timestamp_ms";
   for (const std::string& name : markers.names) text += "," + name + "_x," + name + "_y," + name + "_z";
   for (std::size_t f = 0; f < markers.frames.size(); ++f) {
     text += fmt::format("\n{}", 1000 * static_cast<double>(f) / markers.rate_hz);
