@@ -233,7 +233,8 @@ std::vector<std::string> DescribeLabels(const std::vector<Label>& labels, const 
   if (!bare.empty()) {
     constexpr std::size_t kShown = 3;
     const std::size_t shown = std::min(kShown, bare.size());
-    lines.push_back(fmt::format("{}: no label for {}{}", file, Join(std::span(bare).first(shown)),
+    lines.push_back(fmt::format("{}: no label for {}{}; each move recognised there counts as a false alarm", file,
+                                Join(std::span(bare).first(shown)),
                                 bare.size() > shown ? fmt::format(" and {} more", bare.size() - shown) : ""));
   }
   for (const NamedStream& stream : streams) {

@@ -153,7 +153,7 @@ TEST(DescribeLabels, TellsWhatLabelsAndRecordingsDoNotShare) {
   EXPECT_EQ(lines("zz,,,wave,right\nah_clap1,,,clap,right\nah_hamer1,,,hammer,right\n"),
             (Lines{"l:4: no recording ah_hamer1 is given; did you mean ah_hammer1?; Etude leaves out 2 labels without "
                    "a recording",
-                   "l: no label for ah_hammer1"}));
+                   "l: no label for ah_hammer1; each move recognised there counts as a false alarm"}));
   EXPECT_EQ(lines("ah_clap1,,,clap,rihgt\nah_hammer1,,,hammer,right\nah_hammer1,1,2,hammer,half\nzz,,,wave,odd\n"),
             (Lines{"l:5: no recording zz is given",
                    "l: truth: right 1, half 1, rihgt 1 (Etude reads this as a fault; did you mean right?)"}));
