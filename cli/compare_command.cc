@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
+#include "engine/base/names.h"
 #include "reports/gate_table.h"
 #include "reports/words/judged.h"
 
@@ -43,6 +44,10 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   const std::vector<std::string> incomparable = DropIncomparable(before, after);
   const SnapshotComparison comparison = CompareSnapshots(before, after, {});
   const std::vector<std::string> systems = CompareSystems(run_a.data.system, run_b.data.system, before, after);
+  if (std::ranges::all_of(comparison.moves, [](const MetricMove& move) { return move.worlds == 0; })) {
+    return Fail({}, "{} and {} have no world in common that can be compared{}{}", a, b,
+                incomparable.empty() ? "" : ": ", Join(incomparable, "; "));
+  }
   // Print the comparison as JSON.
   if (as_json) {
     Json facts = FactsOf(comparison);

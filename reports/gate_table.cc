@@ -163,7 +163,6 @@ std::vector<std::string> NotAlikeLines(const SnapshotComparison& comparison) {
 }
 
 std::string CompareSentence(const SnapshotComparison& comparison) {
-  if (comparison.moves.empty()) return "there is nothing to compare";
   return Plural(static_cast<long long>(comparison.moves.size()), "comparison") + ": " +
          MovementCounts(comparison.moves);
 }

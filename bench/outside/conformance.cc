@@ -207,6 +207,7 @@ class ConformanceTest {
     const auto start = Clock::now();
     Program program(method_, problem.setting_id, *problem.setting, id);
     const auto result = problem.world->RunWith(program, 0);
+    program.End();
     slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, program.peak_mb());
     repeated_ += program.repeated();

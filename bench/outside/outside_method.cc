@@ -55,6 +55,7 @@ struct OutsideMethod::State {
   Outcome<void> Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
                       const Payload& begin);
   Outcome<Json> Step(const Payload& step);
+  Outcome<void> CloseSession();
   OutsideReply ReplyOf(Outcome<Json> said);
   OutsideReply ReplyToStep(const Outcome<void>& done);
   Outcome<void> Start();
@@ -62,12 +63,14 @@ struct OutsideMethod::State {
   template <typename Act>
   Outcome<void> Attempt(const std::string& what, Act act);
 
-  enum class Measuring { kAlways, kIfDue };
+  enum class Measuring { kAtRest, kIfDue };
   template <typename Read>
-  auto Exchange(const std::string& line, double seconds, Read read, Measuring measuring = Measuring::kAlways)
+  auto Exchange(const std::string& line, double seconds, Read read, Measuring measuring = Measuring::kAtRest)
       -> Outcome<typename decltype(read(line))::value_type>;
   template <typename Read>
   Outcome<void> ReadPendingLines(Read read);
+  template <typename Read>
+  Outcome<void> ReadRest(Read read);
   bool RepeatsAnswer(const std::string& line) const;
   void EndSession();
   std::string Stop(int patience_ms);
@@ -158,6 +161,13 @@ Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   return Exchange(*line, options.time_s, read, Measuring::kIfDue);
 }
 
+Outcome<void> OutsideMethod::State::CloseSession() {
+  const std::string id = session->id;
+  EndSession();
+  RETURN_IF_ERROR(program.Rest());
+  return ReadRest([&](const std::string& said) { return ReadAnswer(said, id); });
+}
+
 Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const Payload& setting,
                                           const std::string& name, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
@@ -174,6 +184,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, read);
   answered.insert(problem_id);
+  if (answer) RETURN_IF_ERROR(ReadRest(read));
   return answer;
 }
 
@@ -208,6 +219,7 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   const auto line = SettingLine(IdOf('s', id), *setting.json, setting_files.path());
   if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, StartSeconds(), ReadReady));
+  RETURN_IF_ERROR(ReadRest(ReadReady));
   setting_in_force = id;
   return {};
 }
@@ -227,6 +239,16 @@ Outcome<void> OutsideMethod::State::ReadPendingLines(Read read) {
   return {};
 }
 
+/// Reads what the program wrote after a valid reply. This fails the question just answered, not the next one: which
+/// question is the next depends on the number of workers.
+template <typename Read>
+Outcome<void> OutsideMethod::State::ReadRest(Read read) {
+  Outcome<void> rest = ReadPendingLines(read);
+  if (rest) rest = program.ReadRest();
+  if (!rest) rest.error().reason = "after its reply: " + rest.error().reason;
+  return rest;
+}
+
 /// Sends a line and returns the reply as parsed by `read`.
 template <typename Read>
 auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Measuring measuring)
@@ -236,14 +258,20 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   RETURN_IF_ERROR(ReadPendingLines(read));
   program.Send(line);
+  const auto too_long = [&, before = repeated] {
+    OutsideFailure failure = TookTooLong(seconds);
+    if (repeated > before) failure.reason += "; it answered an earlier question again instead of this one";
+    return tl::unexpected(std::move(failure));
+  };
   while (true) {
     const auto said = program.WaitForLine(deadline, seconds);
+    if (!said && said.error().status == Status::kTimeout) return too_long();
     if (!said) return tl::unexpected(said.error());
     auto reply = read(*said);
     // Ignore repeated answers until the deadline.
     if (!reply && RepeatsAnswer(*said)) {
-      if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
       ++repeated;
+      if (Clock::now() >= deadline) return too_long();
       continue;
     }
     if (!reply) {
@@ -253,7 +281,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
     // A valid reply must come after the program has read the question. If more than this question is unread, the reply
     // came too early.
     if (program.UnreadBytes() > line.size()) return BadOutput(TooEarly());
-    RETURN_IF_ERROR(measuring == Measuring::kAlways ? program.Measure() : program.MeasureIfDue());
+    RETURN_IF_ERROR(measuring == Measuring::kAtRest ? program.Rest() : program.MeasureIfDue());
     if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
       return {};
     } else {
@@ -317,6 +345,11 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   state_->EndSession();
   state_->program.SaveErrors();
   return reply;
+}
+
+OutsideReply OutsideMethod::EndSession() {
+  assert(state_->session.has_value());
+  return state_->ReplyToStep(state_->CloseSession());
 }
 
 /// Makes the reply and adds the resources that the program used. Stops the program after a failure.

@@ -79,6 +79,8 @@ class OutsideMethod {
   /// Sends the next step of the session in progress. Any status but kOk ends the session. The program is then restarted
   /// for the next session, except after kUnsolved (the program gave no answer).
   OutsideReply Step(const Payload& step);
+  /// Ends the session in progress. Fails if the program wrote anything but repeated answers after its last reply.
+  OutsideReply EndSession();
 
   /// Returns the name and version that the program stated in its handshake, "name version"; "" before the first
   /// handshake.

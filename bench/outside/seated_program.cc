@@ -33,4 +33,8 @@ JsonPtr SeatedProgram::Step(const Payload& step) {
   return std::move(reply.answer);
 }
 
+void SeatedProgram::End() {
+  if (!failure_ && sessions_ > 0) Note(method_.EndSession());
+}
+
 }  // namespace etude

@@ -18,6 +18,8 @@ class SeatedProgram : public LiveProgram {
 
   bool Begin(const Payload& session) override;
   JsonPtr Step(const Payload& step) override;
+  /// Ends the last session. A program that wrote more than its answers has then failed.
+  void End();
 
   /// Returns the program's first failure; nullopt if it has not failed.
   const std::optional<CellResult>& failure() const { return failure_; }

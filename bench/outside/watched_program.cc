@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "engine/base/machine.h"
+#include "io/process/process_tree.h"
 
 namespace etude {
 namespace {
@@ -34,6 +37,9 @@ Result<Descriptor> OpenLog(const std::filesystem::path& file) {
 
 // The interval between samples of resources, and between checks that the program still runs.
 constexpr std::chrono::milliseconds kSampleInterval{20};
+// The processor time for which a program that goes on computing after its reply is awaited. A limit of wall-clock time
+// would make the result depend on how busy this machine is.
+constexpr double kMaxRestCpu_s = 0.05;
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
   // If this machine caused the error, leave out the error's place, because the caller's message names the machine.
@@ -200,7 +206,7 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
     if (is_due) {
       RETURN_IF_ERROR(Measure());
       next_sample = Clock::now() + kSampleInterval;
-      over = child_->HasEnded();  // the program's child processes may keep its output open
+      over = child_->HasEnded() || HasClosedOutput();  // the program's child processes may keep its output open
     }
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
       over = !child_->Receive(kMaxReplyBytes) || over;
@@ -209,10 +215,46 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
   }
 }
 
+/// Bubblewrap and the first process in a fence hold the output, too, so it stays open when the program has closed it.
+bool WatchedProgram::HasClosedOutput() {
+  if (!options_.fence.IsUp()) return false;
+  const std::vector<pid_t> processes = ProcessTree(child_->number());
+  const auto inside = std::span(processes).subspan(std::min(FenceProcesses(), processes.size()));
+  const bool is_held = inside.empty() || std::ranges::any_of(inside, [&](pid_t process) {
+                         return MayHoldPipe(process, child_->output());
+                       });
+  samples_closed_ = is_held ? 0 : samples_closed_ + 1;
+  return samples_closed_ > 1;  // during one sample, a child may have started and its parent ended
+}
+
+OutsideOutcome<void> WatchedProgram::Rest() {
+  const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(kMaxDyingMs);
+  RETURN_IF_ERROR(Measure());
+  const double max_cpu_s = load_.cpu_s + kMaxRestCpu_s;
+  pollfd watched{child_->output(), POLLIN, 0};
+  const auto is_active = [&] {
+    const bool has_ended = load_.processes <= load_.ending + FenceProcesses();  // the fence's own processes end later
+    return has_ended ? !child_->HasEnded() : load_.is_busy && load_.cpu_s < max_cpu_s;
+  };
+  while (is_active() && Clock::now() < deadline) {
+    if (::poll(&watched, 1, 1) != 0) break;
+    RETURN_IF_ERROR(Measure());
+  }
+  return {};
+}
+
+OutsideOutcome<void> WatchedProgram::ReadRest() {
+  const bool is_open = child_->Receive(kMaxReplyBytes);
+  if (child_->PartOfLine().find('\n') != std::string_view::npos) return {};
+  if (!is_open || child_->HasEnded()) return tl::unexpected(HowItEnded());
+  if (child_->PartOfLine().empty()) return {};
+  return tl::unexpected(OutsideFailure{Status::kBadOutput, "wrote a part of a line: " + Printable(StartOfLine())});
+}
+
 OutsideOutcome<void> WatchedProgram::Measure() {
   last_measured_ = Clock::now();
   errors_.Trim();
-  const TreeLoad load = meter_->Count();
+  const TreeLoad load = load_ = meter_->Count();
   const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
   // Without a control group, precise measurements are expensive. HeldMb may return an upper bound instead, as long as
   // this is at most 10 % + 4 MB above the peak so far: the reported peak has this tolerance.
@@ -241,9 +283,13 @@ tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
   return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
+std::string WatchedProgram::StartOfLine() const {
+  return WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
+}
+
 /// Returns the failure that says why the program will send no more lines.
 OutsideFailure WatchedProgram::HowItEnded() {
-  const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
+  const std::string part = StartOfLine();
   if (child_->PartOfLine().size() > kMaxReplyBytes) {
     return {Status::kBadOutput,
             fmt::format("wrote a line of more than {} MiB: {}", kMaxReplyBytes >> 20, Printable(part))};

@@ -85,6 +85,11 @@ class WatchedProgram {
   /// since the last sample.
   OutsideOutcome<void> Measure();
   OutsideOutcome<void> MeasureIfDue();
+  /// Measures the program's resources until the program waits, writes something or has ended, or has computed for 50
+  /// ms.
+  OutsideOutcome<void> Rest();
+  /// Reads the output that is available now. Fails if this is a part of a line, or if the program will send no more.
+  OutsideOutcome<void> ReadRest();
   /// Returns the number of bytes that were sent to the program and that the program has not read yet.
   std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
 
@@ -110,6 +115,11 @@ class WatchedProgram {
 
  private:
   OutsideFailure HowItEnded();
+  bool HasClosedOutput();
+  /// The number of processes at the root of the child's tree that belong to the fence: bubblewrap and the first
+  /// process.
+  std::size_t FenceProcesses() const { return options_.fence.IsUp() ? 2 : 0; }
+  std::string StartOfLine() const;  ///< of the line whose end has not been received yet
   tl::unexpected<OutsideFailure> TooMuchMemory() const;
 
   const OutsideOptions& options_;
@@ -123,6 +133,8 @@ class WatchedProgram {
   double cpu_s_ = 0;          ///< processor time of the running program at the last sample
   double cpu_charged_s_ = 0;  ///< the part of cpu_s_ that TakeCpuSeconds has already returned
   double peak_mb_ = 0;
+  TreeLoad load_;           ///< the last sample
+  int samples_closed_ = 0;  ///< number of successive samples in which no process inside the fence held the output
 };
 
 }  // namespace etude

@@ -196,6 +196,7 @@ CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
   if (!setting) return setting.error();
   SeatedProgram program(outside_.at(method), SettingId(), **setting, fmt::format("{}/{}", SettingId(), trial_));
   auto result = world_->RunWith(program, IndexInTask(method));
+  program.End();
   usage.cpu_s += program.cpu_s();
   usage.peak_mb = program.peak_mb();
   if (!program.was_asked()) why_not_run_ = WhyNotAsked(method, program.failure()->reason);

@@ -5,18 +5,21 @@
 #include <fmt/core.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 
 namespace etude {
 namespace {
 
 constexpr std::size_t kMaxProcesses = 4096;
+constexpr unsigned kExiting = 4;  // the kernel's flag PF_EXITING in /proc/<pid>/stat
 
 /// Returns the living threads of a process.
 std::vector<pid_t> ThreadsOf(pid_t process) {
@@ -77,19 +80,44 @@ ProcessUsage MeasureProcess(pid_t process) {
   // follow the last ')'.
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return {};
+  char state = 0;
+  unsigned flags = 0;
   unsigned long faults = 0;
   long user_waited_for = 0, system_waited_for = 0, resident_pages = 0;
-  const int read = std::sscanf(stat.c_str() + name_end + 1,
-                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15: reads field 10
-                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // reads fields 16, 17, 24
-                               &faults, &user_waited_for, &system_waited_for, &resident_pages);
-  if (read != 4) return {};
+  const int read =
+      std::sscanf(stat.c_str() + name_end + 1,
+                  " %c %*s %*s %*s %*s %*s %u %lu %*s %*s %*s %*s %*s"  // fields 3 to 15: reads fields 3, 9, 10
+                  " %ld %ld %*s %*s %*s %*s %*s %*s %ld",               // reads fields 16, 17, 24
+                  &state, &flags, &faults, &user_waited_for, &system_waited_for, &resident_pages);
+  if (read != 6) return {};
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
   const double own_cpu_s = OwnCpuSeconds(process);
   return {static_cast<double>(resident_pages) * mb_per_page,
-          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, faults, 1,
-          own_cpu_s};
+          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick,
+          faults,
+          1,
+          own_cpu_s,
+          state == 'R' || state == 'D',
+          (flags & kExiting) != 0};
+}
+
+bool MayHoldPipe(pid_t process, int end) {
+  struct stat pipe {};
+  if (::fstat(end, &pipe) != 0) return true;
+  for (const pid_t thread : ThreadsOf(process)) {  // a thread that has ended shows no descriptors
+    DIR* descriptors = ::opendir(fmt::format("/proc/{}/task/{}/fd", process, thread).c_str());
+    if (descriptors == nullptr && errno == EACCES) return true;
+    bool found = false;
+    while (const dirent* descriptor = descriptors == nullptr || found ? nullptr : ::readdir(descriptors)) {
+      struct stat held {};
+      found = ::fstatat(::dirfd(descriptors), descriptor->d_name, &held, 0) == 0 && held.st_dev == pipe.st_dev &&
+              held.st_ino == pipe.st_ino;
+    }
+    if (descriptors != nullptr) ::closedir(descriptors);
+    if (found) return true;
+  }
+  return false;
 }
 
 std::vector<pid_t> ChildrenOf(pid_t parent) {

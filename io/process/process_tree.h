@@ -17,6 +17,8 @@ struct ProcessUsage {
   std::uint64_t faults = 0;   ///< minor page faults: pages touched for the first time, or copied on write
   std::size_t processes = 0;  ///< number of processes: 1, or 0 if the process no longer exists
   double own_cpu_s = 0;       ///< processor time without the time of child processes
+  bool is_busy = false;       ///< the first thread computes, or waits for a disk
+  bool is_ending = false;     ///< the process ends, or has ended and its parent has not waited for it
 };
 
 /// Reads at most `max_bytes` + 4 KiB of a file in /proc; returns "" if the process does not exist any more.
@@ -28,6 +30,9 @@ std::vector<pid_t> ProcessTree(pid_t root);
 
 /// Returns the living children of `parent`, including adopted children.
 std::vector<pid_t> ChildrenOf(pid_t parent);
+
+/// Returns true if a process holds the pipe of which `end` is a descriptor, or may hold it.
+bool MayHoldPipe(pid_t process, int end);
 
 /// Measures one process without its living descendants; returns zeros if the process does not exist any more.
 ProcessUsage MeasureProcess(pid_t process);

@@ -195,24 +195,28 @@ bool Starves(const ElapsedTime& measuring, double cores_of_tree, double cores) {
 TreeLoad TreeMeter::Count() {
   started_ = Now();
   processes_ = ProcessTree(root_);
-  bounds_mb_.clear();
+  bounds_mb_.assign(processes_.size(), 0);
   const TreeLoad before = std::exchange(load_, {});
   page_tables_mb_ = max_shared_mb_ = 0;
 
-  // Read two small files per process.
+  // Read two small files per process, of children before their parents, because a process that ends makes its parent
+  // busy.
   std::map<pid_t, std::uint64_t> faults;
-  for (const pid_t process : processes_) {
+  for (std::size_t i = processes_.size(); i-- > 0;) {
+    const pid_t process = processes_[i];
     ClaimTime();
     const ProcessUsage usage = MeasureProcess(process);
     const ProcessBound bound = BoundOf(process);
     load_.cpu_s += usage.cpu_s;
     load_.processes += usage.processes;
+    load_.is_busy = load_.is_busy || usage.is_busy;
+    load_.ending += usage.is_ending ? 1 : 0;
     load_.threads += bound.threads;
     load_.descriptors += bound.descriptors;
     const auto known = faults_.find(process);
     touched_pages_ += usage.faults - (known == faults_.end() ? 0 : std::min(known->second, usage.faults));
     faults[process] = usage.faults;
-    bounds_mb_.push_back(bound.private_mb);
+    bounds_mb_[i] = bound.private_mb;
     page_tables_mb_ += bound.page_tables_mb;
     max_shared_mb_ = std::max(max_shared_mb_, bound.shared_mb);
   }

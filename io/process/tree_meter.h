@@ -22,6 +22,8 @@ struct TreeLoad {
   /// Sockets in the tree's network namespace, and sockets in transit over other sockets; 0 without a namespace.
   std::size_t sockets = 0;
   std::size_t file_locks = 0;
+  std::size_t ending = 0;  ///< number of processes that end or have ended (ProcessUsage)
+  bool is_busy = false;    ///< at least one of the processes is busy (ProcessUsage)
 };
 
 /// The time that this thread has computed, and the time that has passed.

@@ -342,6 +342,13 @@ class Gate(EtudeCase):
         self.assertIn("Only in B:\n  ik, joint_noise_deg=7, fixed\n", result.stdout)
         self.assertEqual(self.etude("compare", self.out, self.folder / "none").returncode, 2)
 
+    def test_comparing_two_runs_without_a_common_world_is_refused(self):
+        self.make_baseline()
+        for scenario, seed, why in [(SCENARIO, 2, ": ik: the seed was 1 and is 2"), (SCENARIO.replace("scenario: ik", "scenario: ki"), 1, "")]:
+            self.run_now(scenario, "--seed", seed, "--overwrite")
+            for more in [], ["--json"]:
+                self.refusal("compare", self.out, self.now, *more, says="have no world in common that can be compared" + why)
+
     @heavy
     def test_the_gate_measures_itself(self):
         repetitions = 200

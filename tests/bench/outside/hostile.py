@@ -96,6 +96,24 @@ def answers_twice(problem):
     write(line + line)
 
 
+def chats_after_its_answer(problem):
+    answer(problem)
+    end = time.process_time() + 0.005
+    while time.process_time() < end:
+        pass
+    write("done\n")
+
+
+def begins_a_line_after_its_answer(problem):
+    answer(problem)
+    write("done ")
+
+
+def ends_after_its_answer(problem):
+    answer(problem)
+    sys.exit(0)
+
+
 def answers_again_after_the_next_question(problem, asked=[]):
     """Answers each question twice. The second answer differs, and comes after the next question."""
     for question in asked[-1:]:
@@ -150,6 +168,14 @@ def leaves_a_child_at_its_output(problem):
 def closes_its_output(problem):
     os.close(1)
     time.sleep(1000)
+
+
+def moves_its_output(problem):
+    """Moves the output to another descriptor, and answers when this has been sampled several times."""
+    moved = os.dup(1)
+    os.close(1)
+    time.sleep(0.2)
+    os.write(moved, (json.dumps(answer_to(problem)) + "\n").encode())
 
 
 def floods_its_standard_error(problem, asked=[0]):
@@ -231,6 +257,8 @@ def main(behaviour):
             if behaviour == "dies_at_a_setting" and message["setting"]["name"] == "fatal":
                 sys.exit(7)
             say(type="ready")
+            if behaviour == "chats_after_its_setting":
+                write("done\n")
         elif message["type"] == "begin" and behaviour != "answers_the_beginning":
             say(type="ready")
         else:

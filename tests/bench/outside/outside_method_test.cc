@@ -136,6 +136,13 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"answers_without_end", Status::kBadOutput, "wrote a line of more than 16 MiB: 'xxx"},
         Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p"},
         Hostility{"answers_a_list", Status::kBadOutput, "its message 'answer' has no object with the key \"answer\": "},
+        Hostility{"chats_after_its_answer", Status::kBadOutput,
+                  "after its reply: wrote something that is not JSON: 'done'"},
+        Hostility{"begins_a_line_after_its_answer", Status::kBadOutput,
+                  "after its reply: wrote a part of a line: 'done '"},
+        Hostility{"ends_after_its_answer", Status::kFailed, "after its reply: ended with exit code 0"},
+        Hostility{"chats_after_its_setting", Status::kBadOutput,
+                  "at setting 's': after its reply: wrote something that is not JSON: 'done'"},
         Hostility{"eats_memory", Status::kOutOfMemory, "held more than 100 MB of memory"},
         Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 100 MB of memory"},
         Hostility{"leaves_a_child_at_its_output", Status::kFailed, "ended with exit code 5"},
@@ -154,10 +161,18 @@ TEST(OutsideMethod, GreetsBeforeItIsAskedAnything) {
 }
 
 TEST(OutsideMethod, ClosingItsOutputIsNoWayToLiveOn) {
-  OutsideMethod method(Behaving("closes_its_output"));
-  const OutsideReply reply = Ask(method);
-  EXPECT_EQ(reply.status, Status::kBadOutput);
-  EXPECT_EQ(reply.reason, "closed its output, but continued to run");
+  for (const Fence& fence : {Fence(), FenceOfMethods()}) {
+    OutsideMethod method(Behaving("closes_its_output", fence));
+    const OutsideReply reply = Ask(method);
+    EXPECT_EQ(reply.status, Status::kBadOutput);
+    EXPECT_EQ(reply.reason, "closed its output, but continued to run");
+  }
+}
+
+TEST(OutsideMethod, AnOutputMovedToAnotherPlaceIsNotClosed) {
+  OutsideOptions options = Behaving("moves_its_output", FenceOfMethods());
+  OutsideMethod method(options);
+  EXPECT_EQ(Ask(method).status, Status::kOk);
 }
 
 TEST(OutsideMethod, TakingTooLongIsATimeout) {
@@ -198,7 +213,9 @@ TEST(OutsideMethod, WhoOnlyRepeatsItselfTakesTooLong) {
   options.time_s = 3;
   OutsideMethod method(options);
   EXPECT_EQ(Ask(method, "first").status, Status::kOk);
-  EXPECT_EQ(Ask(method, "second").status, Status::kTimeout);
+  const OutsideReply second = Ask(method, "second");
+  EXPECT_EQ(second.status, Status::kTimeout);
+  EXPECT_EQ(second.reason, "took longer than 3 s; it answered an earlier question again instead of this one");
 }
 
 TEST(OutsideMethod, WhoNeverReadsIsNotWaitedForLongerThanAllowed) {
@@ -426,6 +443,20 @@ TEST(LiveSession, AStepAnsweredAgainIsPassedOver) {
       EXPECT_EQ(reply.repeated, i == 3 ? 1 : 0);
     }
   }
+}
+
+TEST(LiveSession, WhatIsWrittenAfterTheLastAnswerFailsThisSessionAndNotTheNext) {
+  OutsideMethod method(Behaving("chats_after_its_answer"));
+  ASSERT_EQ(Begin(method).status, Status::kOk);
+  ASSERT_EQ(method.Step(PayloadOf(Json::object())).status, Status::kOk);
+  const OutsideReply end = method.EndSession();
+  EXPECT_EQ(end.status, Status::kBadOutput);
+  EXPECT_EQ(end.reason, "after its reply: wrote something that is not JSON: 'done'");
+  ASSERT_EQ(Begin(method, "next").status, Status::kOk);
+  OutsideMethod good(Behaving("answers_a_session_twice"));
+  ASSERT_EQ(Begin(good).status, Status::kOk);
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(good.Step(PayloadOf(Json::object())).status, Status::kOk);
+  EXPECT_EQ(good.EndSession().status, Status::kOk);
 }
 
 class HostileInASession : public ::testing::TestWithParam<Hostility> {};
