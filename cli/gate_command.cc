@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
+#include "cli/pair_notes.h"
 #include "io/files/files.h"
 #include "reports/gate_table.h"
 #include "reports/report.h"
@@ -149,6 +150,7 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   }
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
   report.run_folder = options.target;
+  report.doubts = DoubtsOf(run.data).Kinds();
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
   RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {

@@ -30,6 +30,8 @@ class DoubtList {
  public:
   void Add(const Row& row);
   const std::vector<std::string>& lines() const { return lines_; }
+  /// Returns the first doubt of each kind.
+  std::vector<std::string> Kinds() const { return kinds_.Lines(); }
   /// Prints the doubts on stderr: the first of each kind, at most twenty kinds.
   void Tell() const;
 

@@ -407,6 +407,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
   text += List("Undecided, because the values cannot be compared:", NotAlikeLines(report.comparison));
   text += List("New, not in the baseline (`--update` adds these):", report.comparison.only_after);
   text += List("Methods whose settings in the scenario changed:", report.comparison.settings_changed);
+  text += List("Doubts about the judged files (these do not fail the gate):", report.doubts);
   if (!report.baseline_file.empty()) {
     text += fmt::format(
         "\n"

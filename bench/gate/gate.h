@@ -65,6 +65,7 @@ struct GateReport {
   /// of them makes the gate fail.
   std::vector<std::string> silent;
   std::vector<std::string> incomplete;  ///< the reasons why the gate gives no verdict
+  std::vector<std::string> doubts;      ///< what looks wrong in judged files; for the report only
   /// True: some methods are outside programs, so `etude replay` needs permission to run them.
   bool runs_programs = false;
 };

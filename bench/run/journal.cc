@@ -204,7 +204,10 @@ Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
     ++read;
     if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
   }
-  if (read == 0) return Fail({path, 0, 0}, "is empty or cannot be read");
+  if (read == 0) {
+    return Fail({path, 0, 0},
+                "has no whole line, so its cells are lost; restore this file, or run again with --overwrite");
+  }
   return Fail({path, 1, 0}, "neither the first line nor a later copy is the header of a journal");
 }
 

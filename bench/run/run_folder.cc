@@ -83,7 +83,8 @@ Result<FolderState> InspectFolder(const fs::path& path) {
   if (error) return CannotRead(path.string(), "cannot be read", error.value());
   ASSIGN_OR_RETURN(const bool is_begun, HoldsWholeLine(Inside(path) / kJournalFile));
   if (is_begun) return FolderState::kUnfinished;
-  return Exists(Inside(path) / "host.json") ? FolderState::kFinished : FolderState::kFree;
+  if (!Exists(Inside(path) / "host.json")) return FolderState::kFree;
+  return Exists(Inside(path) / kJournalFile) ? FolderState::kUnfinished : FolderState::kFinished;
 }
 
 Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {

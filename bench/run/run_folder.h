@@ -17,8 +17,10 @@ enum class FolderState {
   /// The folder is missing or empty, or it has neither a journal nor host.json: a run ended before it began its
   /// journal, or a merge ended before it had written all results.
   kFree,
-  kUnfinished,  ///< the folder has a journal: it belongs to an interrupted run, a run in progress, or a shard
-  kFinished,    ///< the folder has no journal, but has host.json, which is written after all results of a whole run
+  /// The folder has a journal: it belongs to an interrupted run, a run in progress, or a shard. If the folder has
+  /// host.json, the journal may have lost its lines.
+  kUnfinished,
+  kFinished,  ///< the folder has no journal, but has host.json, which is written after all results of a whole run
 };
 
 /// Examines the contents of a folder. Fails if the folder contains anything that is not part of a run, because a run

@@ -407,6 +407,8 @@ class Evaluate(EtudeCase):
         doubts = self.facts("run", scenario, "-o", self.out, "--overwrite")["doubts"]
         self.assertEqual(len(doubts), 1, doubts)
         self.assertRegex(doubts[0], "^mine, a: the answer: .*along Z")
+        self.ends(0, "gate", self.out)
+        self.assertRegex((self.out / "report/gate.md").read_text(), r"Doubts about the judged files \(these do not fail the gate\):\n\n- mine, a: the answer: .*along Z")
 
     def test_a_copy_of_the_truth_is_told(self):
         copy = self.folder / "mine.npz"

@@ -109,7 +109,9 @@ methods: [{name: hue}]
         self.assertIn(f"b.bvh: is left out: is a byte copy of '{clips}/a.bvh'", self.ends(0, "run", scenario, "--dry-run").stderr)
         told = self.ends(0, "run", scenario, "-o", self.out, "--json")
         self.assertIn(f"b.bvh: was left out: is a byte copy of '{clips}/a.bvh'", told.stderr)
-        self.assertEqual([line.partition(": ")[0] for line in json.loads(told.stdout)["left_out"]], [f"{clips}/b.bvh"])
+        left_out = json.loads(told.stdout)["left_out"]
+        self.assertEqual([line.partition(": ")[0] for line in left_out], [f"{clips}/b.bvh"])
+        self.assertEqual(self.facts("run", scenario, "-o", self.out, "--resume")["left_out"], left_out)
         setup, = json.loads((self.out / "manifest.json").read_text())["scenarios"]
         self.assertEqual([one["clip"] for one in setup["refused"]], [f"{clips}/b.bvh"])
         self.assertEqual(len(setup["loaded_clips"]), 2)

@@ -225,6 +225,18 @@ class Survival(EtudeCase):
                                   ([*folders[:2], self.folder / "none"], "none contains no shard; shard 3/3 is missing")):
             self.refusal("merge", *shards, "-o", self.out, says=complaint, leaves=self.out)
 
+    def test_a_shard_whose_journal_is_lost_is_no_whole_run(self):
+        shard, *others = self.shards()
+        whole = (shard / "journal.jsonl").read_text()
+        for left in "", whole[:100]:
+            (shard / "journal.jsonl").write_text(left)
+            lost = "journal.jsonl: has no whole line, so its cells are lost; restore this file, or run again with --overwrite"
+            self.refusal("merge", shard, *others, "-o", self.out, says=lost, leaves=self.out)
+            self.refusal("run", self.scenario, "-o", shard, "--shard", "1/3", "--resume", says=lost)
+        self.ends(0, "run", self.scenario, "-o", shard, "--shard", "1/3", "--overwrite")
+        self.ends(0, "merge", shard, *others, "-o", self.out)
+        self.assert_same_results(self.whole, self.out)
+
     def test_a_manifest_repeats_its_run(self):
         self.ends(0, "run", "--from", self.whole / "manifest.json", "-o", self.out)
         self.assert_same_results(self.whole, self.out)
