@@ -68,19 +68,23 @@ std::string DigestOfContent(const fs::path& file) {
   return digest.Hex();
 }
 
-/// Adds the digests of the files in a folder. Results of runs, caches of Python and the folder of Git do not count. A
-/// folder of very many files, such as an installation of Python, has one digest, of the names and sizes of its files.
+/// Returns true for a folder with results of a run, caches of Python or the folder of Git.
+bool IsLeftOut(const fs::directory_entry& folder) {
+  const fs::path name = folder.path().filename();
+  std::error_code error;
+  return name == ".git" || name == "__pycache__" || fs::exists(folder.path() / "manifest.json", error);
+}
+
+/// Adds the digests of the files in a folder, unless a file IsLeftOut. A folder of very many files, such as an
+/// installation of Python, has one digest, of the names and sizes of its files.
 void AddFolder(const std::string& folder, Json& files) {
   constexpr std::size_t kMaxContents = 1000;
   std::map<std::string, std::int64_t> sizes;
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const fs::path name = entry->path().filename();
     std::error_code none;
     if (entry->is_directory(none)) {
-      if (name == ".git" || name == "__pycache__" || fs::exists(entry->path() / "manifest.json", none)) {
-        entry.disable_recursion_pending();
-      }
+      if (IsLeftOut(*entry)) entry.disable_recursion_pending();
     } else if (entry->is_regular_file(none)) {
       sizes[entry->path().lexically_normal().string()] = static_cast<std::int64_t>(entry->file_size(none));
     }
@@ -94,15 +98,30 @@ void AddFolder(const std::string& folder, Json& files) {
   files[folder + " (names and sizes)"] = digest.Hex();
 }
 
-/// Adds the digests of the files in the folder of `script` that have its extension, because the script may import them.
-void AddNeighbours(const fs::path& script, Json& files) {
+/// Returns the extension of an interpreter's scripts, for the extension of a file that scripts of this kind import.
+fs::path LanguageOf(const fs::path& file) {
+  const fs::path extension = file.extension();
+  if (extension == ".so") return ".py";
+  return extension == ".mjs" || extension == ".cjs" ? fs::path(".js") : extension;
+}
+
+/// Adds the digests of the files in `folder` that a script of the language in this folder may import. Packages count,
+/// too: subfolders that contain such files themselves.
+void AddNeighbours(const fs::path& folder, const fs::path& language, Json& files) {
+  std::vector<fs::path> subfolders;
+  bool is_package = false;
   std::error_code error;
-  const fs::path folder = script.has_parent_path() ? script.parent_path() : fs::path(".");
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code none;
-    if (entry->path().extension() != script.extension() || !entry->is_regular_file(none)) continue;
-    files[entry->path().lexically_normal().string()] = DigestOfContent(entry->path());
+    if (entry->is_directory(none)) {
+      if (!entry->is_symlink(none) && !IsLeftOut(*entry)) subfolders.push_back(entry->path());
+    } else if (LanguageOf(entry->path()) == language && entry->is_regular_file(none)) {
+      files[entry->path().lexically_normal().string()] = DigestOfContent(entry->path());
+      is_package = true;
+    }
   }
+  if (!is_package) return;
+  for (const fs::path& subfolder : subfolders) AddNeighbours(subfolder, language, files);
 }
 
 /// Returns the digests of the files that a program's `exec` and `files` name, by the files' names in these keys.
@@ -114,7 +133,9 @@ Json DigestsOf(const MethodEntry& program) {
     const std::string path = i == 0 ? FindProgram(word).value_or("") : word;
     if (!fs::is_regular_file(path, error) || (i == 0 && Fence::IsOfSystem(path))) continue;
     files[fs::path(word).lexically_normal().string()] = DigestOfContent(path);
-    if (program.files.empty() && fs::path(word).has_extension()) AddNeighbours(path, files);
+    if (!program.files.empty() || !fs::path(word).has_extension()) continue;
+    const fs::path folder = fs::path(path).parent_path();
+    AddNeighbours(folder.empty() ? "." : folder, LanguageOf(path), files);
   }
   for (const std::string& file : program.files) {
     if (fs::is_directory(file, error)) {

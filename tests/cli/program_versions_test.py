@@ -62,6 +62,20 @@ metrics: [position_error_cm, {{name: rate, exec: [python3, {self.folder}/ours/me
         for number in (1, 2):
             self.assertEqual(self.run_shard(number).returncode, 0)
 
+    def test_a_change_in_a_package_beside_a_script_is_seen(self):
+        for kept in "ours/parts/__pycache__", "ours/pages":
+            (self.folder / kept).mkdir(parents=True)
+            self.write(f"{kept}/a.txt", "no module")
+        self.write("ours/parts/turn.py", "TURN = 1\n")
+        self.write("ours/solver.py", SOLVER.replace("from helper", "from parts.turn"))
+        self.assertEqual(self.run_shard(1).returncode, 0)
+        self.write("ours/pages/a.txt", "changed")
+        self.assertEqual(self.run_shard(1, "--resume").returncode, 0)
+        self.write("ours/parts/turn.py", "TURN = -1\n")
+        said = self.run_shard(1, "--resume")
+        self.assertEqual(said.returncode, 2)
+        self.assertIn(f"programs.mine.files.{self.folder}/ours/parts/turn.py was ", said.stderr)
+
     @heavy
     def test_whatever_changes_in_a_program_is_refused_with_both_versions(self):
         self.run_shards()
