@@ -151,8 +151,9 @@ void DefineConvert(CLI::App& clip, Action& action) {
                    ".npz (NumPy); or, for Motion-BIDS, a folder such as data/")
       ->required();
   // Define the part of the clip that is converted, and the changes to the clip.
-  command->add_option("--trim", options->trim,
-                      "Convert only the part FROM:TO, in seconds: 1.5:4, or 2: for the part from 2 s to the end");
+  command->add_option(
+      "--trim", options->trim,
+      "Convert only the part FROM:TO, in seconds after the first frame: 1.5:4, or 2: for the part from 2 s to the end");
   command
       ->add_option("--rate", options->rate_hz,
                    "Frames per second of the output (default: the clip's rate, or 30 for a body of twenty joints)")

@@ -152,8 +152,9 @@ void DefineRender(CLI::App& clip, Action& action) {
   command->add_option("--columns", options->columns, "For a contact sheet: number of pictures in a row")
       ->check(CLI::Range(1, 100))
       ->default_str("");
-  command->add_option("--trim", options->trim,
-                      "Render only the part FROM:TO, in seconds: 1.5:4, or 2: for the part from 2 s to the end");
+  command->add_option(
+      "--trim", options->trim,
+      "Render only the part FROM:TO, in seconds after the first frame: 1.5:4, or 2: for the part from 2 s to the end");
   AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);

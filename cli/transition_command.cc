@@ -96,7 +96,9 @@ void DefineTransition(CLI::App& app, Action& action) {
   // Define the clips, the time of the request, and the output.
   command->add_option("from", options->from, "The clip that plays first")->required();
   command->add_option("to", options->to, "The clip that plays afterwards")->required();
-  command->add_option("--at", options->at_s, "Time in the first clip at which the transition is requested, in s")
+  command
+      ->add_option("--at", options->at_s,
+                   "Seconds after the first frame of the first clip at which the transition is requested")
       ->check(NumberWithin(0, 36000, "time in s"))
       ->required();
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc, .csv, .c3d, .npz or .mot")
