@@ -167,7 +167,7 @@ bool IsOneOf(std::string_view heading, std::initializer_list<std::string_view> n
 
 bool IsFrameNumber(std::string_view heading) {
   return IsOneOf(
-      heading, {"", "frame", "frames", "frame#", "frame_number", "frame_id", "frameid", "fnum", "index", "Unnamed:0"});
+      heading, {"", "frame", "frames", "frame#", "frame_number", "frame_id", "frameid", "fnum", "index", "Unnamed:_0"});
 }
 
 bool IsPerson(std::string_view heading) {
