@@ -206,7 +206,8 @@ Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   }
   if (read == 0) {
     return Fail({path, 0, 0},
-                "has no whole line, so its cells are lost; restore this file, or run again with --overwrite");
+                "is empty or begins with a cut line, so its cells are lost; restore this file, or run again with "
+                "--overwrite");
   }
   return Fail({path, 1, 0}, "neither the first line nor a later copy is the header of a journal");
 }

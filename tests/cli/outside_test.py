@@ -60,6 +60,17 @@ class OutsideMethods(EtudeCase):
         self.assertEqual([row for row in among if row["method"] not in REASONS], alone)
         self.assertEqual({row["status"] for row in alone if row["method"] == "good"}, {"ok"})
 
+    def test_what_a_method_writes_after_its_answer_fails_the_same_rows_for_any_number_of_workers(self):
+        chats, ends = "chats_after_its_answer", "ends_after_its_answer"
+        suite = self.write("ik.yaml", IK + "".join(outside(name, HOSTILE, name) for name in (chats, ends)) + LIMITS)
+        reasons = {chats: "after its reply: wrote something that is not JSON: 'done'",
+                   ends: "after its reply: ended with exit code 0"}
+        for jobs in 1, 3:
+            rows = self.run_suite(suite, "--jobs", jobs, out=self.folder / str(jobs), code=1)
+            for name, reason in reasons.items():
+                self.assertEqual([row["reason"] for row in rows if row["method"] == name], [reason] * 8)
+        self.assert_same_results(self.folder / "1", self.folder / "3")
+
     def test_a_method_that_fails_in_some_worlds_is_named_with_its_share(self):
         head = "def answer(tree, problem):\n"
         fails = "    asked = globals()['asked'] = globals().get('asked', 0) + 1\n    if asked % 4 == 2:\n        raise ValueError('no')\n"

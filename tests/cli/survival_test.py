@@ -230,7 +230,7 @@ class Survival(EtudeCase):
         whole = (shard / "journal.jsonl").read_text()
         for left in "", whole[:100]:
             (shard / "journal.jsonl").write_text(left)
-            lost = "journal.jsonl: has no whole line, so its cells are lost; restore this file, or run again with --overwrite"
+            lost = "journal.jsonl: is empty or begins with a cut line, so its cells are lost; restore this file, or run again with --overwrite"
             self.refusal("merge", shard, *others, "-o", self.out, says=lost, leaves=self.out)
             self.refusal("run", self.scenario, "-o", shard, "--shard", "1/3", "--resume", says=lost)
         self.ends(0, "run", self.scenario, "-o", shard, "--shard", "1/3", "--overwrite")
