@@ -6,6 +6,7 @@
 
 #include "engine/api/checks.h"
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/base/utf8.h"
 #include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
@@ -13,11 +14,13 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
+#include "engine/formats/point_table.h"
 #include "engine/formats/row_clock.h"
 #include "engine/formats/trc.h"
 #include "engine/fuzzy/features.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/array_evidence.h"
 #include "engine/retargeting/body_choice.h"
 #include "engine/retargeting/exchanged_sides.h"
 #include "engine/retargeting/joint_arrays.h"
@@ -77,21 +80,25 @@ struct ReadBody {
 };
 
 ReadBody ResampledBody(const BodyMotion& motion, std::vector<std::string> changes, double rate_hz) {
-  for (std::string said : {DescribeResampling(motion.rate_hz, rate_hz), DescribeImpossibleHeight(motion.poses)}) {
+  for (std::string said : {DescribeResampling(motion.rate_hz, rate_hz), DescribeImpossibleHeight(motion.poses),
+                           DescribeSlowRate(motion.rate_hz)}) {
     if (!said.empty()) changes.push_back(std::move(said));
   }
   return {Resampled(motion, rate_hz), std::move(changes)};
 }
 
 ReadBody BodyOfMarkers(const MarkerMotion& markers, const std::string& file, double rate_hz, UpRule rule,
-                       const ReadingOptions& options) {
+                       const ReadingOptions& options, std::string layout = "") {
   if (const auto up = UpOf(options)) rule = {.axis = AxisOf(*up), .evidence = UpEvidence::kTold, .source = "told"};
   if (!options.marker_set.empty() && std::ranges::count(MarkerSetKeys(), options.marker_set) == 0) {
     throw BadInput(UnknownName("marker set", options.marker_set, MarkerSetKeys()));
   }
-  const std::vector<MarkerBody> bodies = OrThrow(FindMarkerBodies(
-      markers, file,
-      {.up = rule, .keep_floor = options.keep_floor, .metres_per_unit = UnitOf(options), .set = options.marker_set}));
+  const std::vector<MarkerBody> bodies = OrThrow(FindMarkerBodies(markers, file,
+                                                                  {.up = rule,
+                                                                   .keep_floor = options.keep_floor,
+                                                                   .metres_per_unit = UnitOf(options),
+                                                                   .set = options.marker_set,
+                                                                   .layout = std::move(layout)}));
   if (bodies.size() != 1)
     throw BadInput(fmt::format("{}: found markers of {} people; allowed: markers of one person", file, bodies.size()));
   return ResampledBody(bodies.front().motion, bodies.front().changes, rate_hz);
@@ -133,17 +140,24 @@ ReadBody BodyOfArrays(const Npz& arrays, const std::string& file, double rate_hz
 ReadBody BodyOfBytes(std::string_view bytes, const std::string& file, double rate_hz, const ReadingOptions& options) {
   bytes = WithoutByteOrderMark(bytes);
   if (IsZip(bytes)) return BodyOfArrays(OrThrow(ReadNpz(bytes, file)), file, rate_hz, options);
+  const std::string_view heading = FirstLine(bytes);
+  if (heading.starts_with("PathFileType")) {  // before C3D, whose first two bytes may be a line end and a P
+    return BodyOfMarkers(OrThrow(ReadTrc(bytes, file)), file, rate_hz, TrcUp(), options);
+  }
   if (IsC3d(bytes)) {
     const C3d c3d = OrThrow(ReadC3d(bytes, file));
     return BodyOfMarkers(c3d.markers, file, rate_hz, C3dUp(c3d.up, c3d.is_up_negative), options);
   }
-  if (bytes.starts_with("PathFileType")) {
-    return BodyOfMarkers(OrThrow(ReadTrc(bytes, file)), file, rate_hz, TrcUp(), options);
-  }
   if (IsMotiveCsv(bytes)) {
     return BodyOfMarkers(OrThrow(ReadMotiveCsv(bytes, file)), file, rate_hz, MotiveUp(), options);
   }
-  if (bytes.substr(0, bytes.find('\n')).find("_x_m") != std::string_view::npos) {
+  if (!IsJointCsv(heading) && IsPointTable(bytes)) {
+    PointTable table = OrThrow(ReadPointTable(bytes, file));
+    MarkerMotion markers = OrThrow(LayOnClock(std::move(table.rows), file));
+    if (!table.has_unit) ScaleToPerson(markers);
+    return BodyOfMarkers(markers, file, rate_hz, TableUp(), options, "table");
+  }
+  if (IsJointCsv(heading)) {
     const MarkerMotion markers = OrThrow(LayOnClock(OrThrow(ReadJointCsv(bytes, file)), file));
     return BodyOfMarkers(markers, file, rate_hz, JointCsvUp(), options);
   }

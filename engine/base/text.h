@@ -36,12 +36,15 @@ inline std::string_view Trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// Takes the first line off the text and returns it without its line break, "\n" or "\r\n".
+/// Takes the first line off the text and returns it without its line break: "\n", "\r\n", "\r\r\n" (text that was
+/// converted twice) or "\r" (old Macs, and spreadsheets on Macs).
 inline std::string_view TakeLine(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line.ends_with('\r') ? line.substr(0, line.size() - 1) : line;
+  const auto is_end = [](char c) { return c == '\n' || c == '\r'; };
+  const std::string_view line(text.begin(), std::ranges::find_if(text, is_end));
+  text.remove_prefix(line.size());
+  const std::size_t length = text.starts_with("\r\r\n") ? 3 : text.starts_with("\r\n") ? 2 : 1;
+  text.remove_prefix(std::min(length, text.size()));
+  return line;
 }
 
 /// Takes the first line off the text and returns it without its line break, as `TakeLine(text)` does, and increments
@@ -49,6 +52,20 @@ inline std::string_view TakeLine(std::string_view& text) {
 inline std::string_view TakeLine(std::string_view& text, int& number) {
   ++number;
   return TakeLine(text);
+}
+
+/// Takes lines off the text, as `TakeLine(text, number)` does, up to the first line that is not blank, and returns this
+/// line; returns an empty line at the end of the text.
+inline std::string_view TakeFirstLine(std::string_view& text, int& number) {
+  std::string_view line;
+  while (!text.empty() && Trimmed(line).empty()) line = TakeLine(text, number);
+  return line;
+}
+
+/// Returns the first line that is not blank.
+inline std::string_view FirstLine(std::string_view text) {
+  int number = 0;
+  return TakeFirstLine(text, number);
 }
 
 /// Splits a text at every separator; n separators give n + 1 parts, some of which may be empty.

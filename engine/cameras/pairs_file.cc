@@ -28,13 +28,13 @@ Result<PointPair> ToPair(const Five& v, const Place& place) {
 Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::string& file) {
   std::vector<CameraPairs> cameras;
   int line = 0;
+  TakeFirstLine(text, line);  // the heading
   while (!text.empty()) {
-    const std::string_view here = TakeLine(text);
-    // Skip the heading, blank lines and comments.
-    const Place place{file, ++line, 0};
+    const std::string_view here = TakeLine(text, line);
+    // Skip blank lines and comments.
+    const Place place{file, line, 0};
     std::vector<std::string_view> words = SplitAt(here, ',');
     for (std::string_view& word : words) word = Trimmed(word);
-    if (line == 1) continue;  // the first line is the heading
     if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
     if (words.size() != 6 || words[0].empty()) {
       return Fail(place, "found '{}'; allowed: the name of a camera and five numbers, {}", here, kHeading);
@@ -107,8 +107,8 @@ Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::stri
 
 Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file) {
   if (text.size() > kMaxBytes) return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxBytes);
-  std::string heading(text.substr(0, text.find('\n')));
-  std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
+  std::string heading(FirstLine(text));
+  std::erase_if(heading, [](char c) { return c == ' ' || c == '\t'; });
   ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));
   if (cameras.empty() || cameras.size() > kMaxCameras) {
     return Fail({file}, "found point pairs of {} cameras; allowed: 1 to {} cameras", cameras.size(), kMaxCameras);

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "engine/base/angles.h"
-#include "engine/base/names.h"
 #include "engine/formats/array_clock.h"
 
 namespace etude {
@@ -82,15 +81,12 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
   // Find the arrays and check their shapes.
   const NumberArray *poses = npz.Find("poses"), *places = npz.Find("trans");
   const std::size_t width = WidthOf(poses);
-  std::vector<std::string> names;
-  for (const auto& [name, array] : npz.arrays) names.push_back(name);
-  for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
   if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3) {
     return Fail({file},
                 "found the arrays {}; allowed: the arrays of AMASS (poses, frames × 72, 156 or 165; trans, frames × 3; "
                 "mocap_framerate or mocap_frame_rate) or of Kimodo (posed_joints, global_rot_mats); save joint "
                 "positions as a .npy file",
-                names.empty() ? "none" : Join(names));
+                NamesOfArrays(npz));
   }
   // Check frames, rate and values.
   const std::size_t frames = poses->shape[0];
@@ -108,7 +104,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file, std::optional<do
           {file},
           "the file states no frame rate (its arrays: {}); allowed: the array mocap_framerate or mocap_frame_rate with "
           "the frames per second, or `--rate` (for `etude clip convert`: `--file-rate`; in a joint map: `rate: 60`)",
-          Join(names));
+          NamesOfArrays(npz));
     }
   }
   constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;

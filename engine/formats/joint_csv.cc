@@ -65,7 +65,8 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
   // Assign each column.
   JointCsvColumns columns{.heading = table.heading, .count = headings.size()};
   for (std::size_t i = 0; i < headings.size(); ++i) {
-    const auto found = std::ranges::find(known, headings[i]);
+    const bool is_minutes = NamesMinutes(headings[i]);
+    const auto found = std::ranges::find(known, is_minutes ? "time_s" : headings[i]);
     const auto text = std::ranges::find(table.texts, i, &std::pair<std::size_t, std::string>::first);
     if (text != table.texts.end() && found != known.end()) {
       return Fail({file, table.lines.front()}, "column {}: found {}; allowed: a number, or nan for a missing value",
@@ -80,7 +81,12 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     if (std::ranges::count(headings, headings[i]) > 1) return Fail({file, 1}, "heading '{}' twice", headings[i]);
     const auto number = static_cast<std::size_t>(found - known.begin());
     if (number == 0) columns.number = i;
+    if (number == 1 && columns.time) {
+      return Fail({file, 1}, "found two columns of times, '{}' and '{}'; allowed: one", headings[*columns.time],
+                  headings[i]);
+    }
     if (number == 1) columns.time = i;
+    columns.counts_minutes = columns.counts_minutes || is_minutes;
     if (number >= 2) columns.joints[(number - 2) / 3][(number - 2) % 3] = i;
   }
   // A joint must have columns for all three coordinates or for none.
@@ -107,6 +113,7 @@ Result<void> CheckPlaces(std::span<const double> values, const JointCsvColumns& 
 
 JointCsvRow RowOf(std::span<const double> values, const JointCsvColumns& columns) {
   JointCsvRow row{.time_s = columns.time ? values[*columns.time] : std::numeric_limits<double>::quiet_NaN()};
+  if (columns.counts_minutes) row.time_s *= kMinute_s;
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     const auto& [x, y, z] = columns.joints[j];
     if (!x) continue;
@@ -133,6 +140,20 @@ std::string WriteJointCsv(const BodyMotion& motion, double start_s) {
   return text;
 }
 
+bool IsJointCsv(std::string_view heading) {
+  constexpr std::string_view kEnd = "_x_m";
+  std::vector<std::string> roles;
+  for (const Role role : AllRoles()) roles.emplace_back(RoleName(role));
+  bool is_found = false;
+  for (const std::string& one : HeadingsOf(heading)) {
+    if (!one.ends_with(kEnd)) continue;
+    const std::string name = one.substr(0, one.size() - kEnd.size());
+    if (std::ranges::find(roles, name) == roles.end() && NearestName(name, roles).empty()) return false;
+    is_found = true;
+  }
+  return is_found;
+}
+
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   // Find the columns, then read the rows.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTime, true));
@@ -155,6 +176,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   for (double& time : csv.times_s) time = csv.scale.SecondsOf(time);
   csv.rate_hz = RateOf(csv.times_s);
   std::vector<std::string> said;
+  if (csv.columns.counts_minutes) said.emplace_back("the heading of the times names minutes");
   if (!csv.scale.remark.empty()) said.push_back(csv.scale.remark);
   const auto is_first = [&](double time) { return time == csv.times_s.front(); };
   if (csv.times_s.size() > 1 && std::ranges::all_of(csv.times_s, is_first)) {

@@ -19,11 +19,16 @@ namespace etude {
 /// `start_s`.
 std::string WriteJointCsv(const BodyMotion& motion, double start_s = 0);
 
+/// Returns true if a line of headings names joints as WriteJointCsv does, perhaps with typing errors, which
+/// ReadJointCsv reports, and no other points.
+bool IsJointCsv(std::string_view heading);
+
 /// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {
   std::string heading;  ///< the line of headings, which also determines the separator of values
   std::size_t count = 0;
   std::optional<std::size_t> time = {}, number = {};
+  bool counts_minutes = false;  ///< true if the heading of the column of times names minutes
   /// The columns of x, y and z for each joint; nullopt if the file lacks the joint.
   std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
   std::vector<std::size_t> texts = {};  ///< the columns of text, which are left out

@@ -59,14 +59,14 @@ std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vecto
 
 }  // namespace
 
-bool IsMotiveCsv(std::string_view text) { return WithoutByteOrderMark(text).starts_with("Format Version,"); }
+bool IsMotiveCsv(std::string_view text) { return FirstLine(WithoutByteOrderMark(text)).starts_with("Format Version,"); }
 
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
     return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
-  // Read the properties in the first line.
+  // Read the properties in the first line that is not blank.
   int line = 0;
-  const auto facts = CommaCells(TakeLine(text, line));
+  const auto facts = CommaCells(TakeFirstLine(text, line));
   const Place first{file, line, 0};
   const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
   const auto metres = MetresOfUnit(unit);

@@ -263,6 +263,17 @@ Result<std::optional<ArrayRate>> RateOfArrays(const Npz& arrays, const std::stri
   return found;
 }
 
+std::string NamesOfArrays(const Npz& npz) {
+  constexpr std::size_t kListed = 20;
+  std::vector<std::string> names;
+  for (const auto& [name, array] : npz.arrays) names.push_back(name);
+  for (const std::string& name : npz.skipped) names.push_back(name + " (no plain numbers)");
+  if (names.empty()) return "none";
+  const std::size_t more = names.size() - std::min(names.size(), kListed);
+  names.resize(names.size() - more);
+  return Join(names) + (more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::string ShapeText(const NumberArray& array) {
   std::vector<std::string> sizes;
   for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));

@@ -29,6 +29,9 @@ struct Npz {
   bool Contains(const std::string& name) const;
 };
 
+/// Returns the names of the first twenty arrays as text for messages; "none" without any.
+std::string NamesOfArrays(const Npz& npz);
+
 /// Returns the shape as text for messages: "3 × 20 × 3".
 std::string ShapeText(const NumberArray& array);
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/row_rates.h"
 
 namespace etude {
@@ -63,6 +64,14 @@ TimeUnit UnitByStep(double step, const std::string& times, std::string& remark) 
 }
 
 }  // namespace
+
+bool NamesMinutes(std::string_view heading) {
+  std::string letters = InLowerCase(std::string(heading));
+  std::erase_if(letters, [](char c) { return !IsLower(c); });
+  constexpr std::string_view kNames[] = {"min", "mins", "tmin"}, kEnds[] = {"timemin", "timemins", "minute", "minutes"};
+  return std::ranges::count(kNames, letters) > 0 ||
+         std::ranges::any_of(kEnds, [&](std::string_view end) { return letters.ends_with(end); });
+}
 
 double TimeScale::SecondsOf(double count) const {
   if (first == 0) return count * seconds;

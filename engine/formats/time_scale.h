@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace etude {
 
@@ -39,5 +40,9 @@ struct ToldRate {
 /// or else 10 to 400 Hz, or else at least 1 Hz. If the first time is beyond ±10⁶ s (as times since 1970 are), it
 /// becomes 0 s.
 TimeScale FindTimeScale(std::span<const double> times, const ToldRate& told);
+
+constexpr double kMinute_s = 60;
+/// Returns true if the heading of a column of times names minutes, as in "time_min", "Time (min)" and "minutes".
+bool NamesMinutes(std::string_view heading);
 
 }  // namespace etude

@@ -179,7 +179,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
     return Fail({file}, "found {} bytes; allowed: at most {}", text.size(), kMaxFileBytes);
   // Read the header and the markers' names.
   int line = 0;
-  TakeLine(text, line);  // skip the line PathFileType
+  TakeFirstLine(text, line);  // skip the line PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
   ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
   MarkerRows rows{.markers = {.rate_hz = header.rate_hz, .names = {}, .frames = {}, .metres_per_unit = header.metres},
@@ -208,7 +208,7 @@ Result<MarkerRows> ReadTrcRows(std::string_view text, const std::string& file) {
   // Check the size before any frame is stored: rows may leave out the cells of their last markers, so frames may take
   // far more memory than the text.
   constexpr double kMaxFrameBytes = 1e9;
-  const auto line_ends = static_cast<double>(std::ranges::count(text, '\n'));
+  const auto line_ends = static_cast<double>(std::max(std::ranges::count(text, '\n'), std::ranges::count(text, '\r')));
   const double bytes = line_ends * static_cast<double>(header.markers * sizeof(std::optional<glm::dvec3>));
   if (bytes > kMaxFrameBytes) {
     return Fail({file, line, 0}, "{} rows of {} markers take {:.0f} MB; allowed: at most {:.0f} MB", line_ends,

@@ -1,5 +1,7 @@
 #include "engine/retargeting/array_evidence.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,6 +109,23 @@ Standing FindStanding(std::span<const glm::dvec3> positions, const std::vector<s
                                                                                          : Standing::kAlongMinusY;
   }
   return along_z > 0 && 4 * along_z >= 3 * seen ? Standing::kAlongZ : Standing::kUnknown;
+}
+
+void ScaleToPerson(MarkerMotion& markers) {
+  std::vector<glm::dvec3> places;
+  for (const auto& frame : markers.frames) {
+    for (const auto& place : frame) places.push_back(place.value_or(NotSeen()));
+  }
+  const auto unit = UnitOfSpread(SpreadOf(places, markers.names.size()));
+  if (!unit) return;
+  markers.metres_per_unit = *unit;
+  for (auto& frame : markers.frames) {
+    for (auto& place : frame) {
+      if (place) *place *= *unit;
+    }
+  }
+  const std::string said = fmt::format("1 unit = {:g} cm, by the size of the body", 100 * *unit);
+  markers.remark += markers.remark.empty() ? said : "; " + said;
 }
 
 }  // namespace etude

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/formats/trc.h"
+
 namespace etude {
 
 /// Returns the largest of a frame's extents along x, y and z, as a median over the frames, in the file's unit. A NaN is
@@ -17,6 +19,10 @@ double SpreadOf(std::span<const glm::dvec3> positions, std::size_t joints);
 /// Returns the length in metres of the unit (m, cm or mm) in which the extent `spread` is a person's, 0.8 to 2.3 m;
 /// nullopt if there is no such unit.
 std::optional<double> UnitOfSpread(double spread);
+
+/// Converts positions in an unknown unit to metres by UnitOfSpread, and states this in `remark`. Does nothing if no
+/// unit gives a person's size.
+void ScaleToPerson(MarkerMotion& markers);
 
 /// The direction of a standing body in the array's axes; kUnknown if it stands along Y on its feet, or if its direction
 /// is not known.

@@ -304,7 +304,9 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
     if (!clock.IsStated()) {
       return Fail({file},
                   "found no rate_hz (frames per second); allowed: rate_hz with one number from 0.1 to 10000, as in "
-                  "numpy.savez(…, positions=p, rate_hz=30), or `times` in seconds, or `rate: 30` in a joint map");
+                  "numpy.savez(…, positions=p, rate_hz=30), or `times` in seconds, or `rate: 30` in a joint map (the "
+                  "file's arrays: {})",
+                  NamesOfArrays(arrays));
     }
   }
   motion.rate_hz = told.rate_hz.value_or(kJudgedRateHz);
@@ -319,7 +321,8 @@ Result<RawMotion> ReadRawNpz(const Npz& arrays, const std::string& file, const A
   }
   const std::size_t joints = motion.joints.size();
   if (joints != shape[1])
-    return Fail({file}, "found {} joints and {} names; allowed: one name for each joint", shape[1], joints);
+    return Fail({file}, "found {} joints and {} names (the file's arrays: {}); allowed: one name for each joint",
+                shape[1], joints, NamesOfArrays(arrays));
   std::set<std::string_view> known;
   for (std::size_t j = 0; j < joints; ++j) {
     if (!known.insert(motion.joints[j]).second) {

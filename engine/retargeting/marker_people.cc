@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kSeparators = "_.-/ ";
+constexpr std::string_view kSeparators = "_.-/ :";
 /// So many markers of the same names are not a coincidence. (A person needs at least twelve.)
 constexpr std::size_t kMinAlike = 6;
 
@@ -22,10 +22,10 @@ struct Affix {
   std::string text;
   bool is_suffix = false;
   auto operator<=>(const Affix&) const = default;
-  /// Returns the text without the separators at its ends.
+  /// Returns the text without the separators at its ends, unless it consists of separators.
   std::string Name() const {
     const std::size_t first = text.find_first_not_of(kSeparators), last = text.find_last_not_of(kSeparators);
-    return first == std::string::npos ? "" : text.substr(first, last + 1 - first);
+    return first == std::string::npos ? text : text.substr(first, last + 1 - first);
   }
 };
 
@@ -34,10 +34,10 @@ std::vector<std::pair<Affix, std::string>> SplitsOf(const std::string& name) {
   constexpr std::size_t kMaxName = 100;
   std::vector<std::pair<Affix, std::string>> splits;
   if (name.size() > kMaxName) return splits;
-  for (std::size_t i = 1; i + 1 < name.size(); ++i) {
+  for (std::size_t i = 0; i < name.size(); ++i) {
     if (kSeparators.find(name[i]) == std::string_view::npos) continue;
-    splits.push_back({{name.substr(0, i + 1), false}, name.substr(i + 1)});
-    splits.push_back({{name.substr(i), true}, name.substr(0, i)});
+    if (i + 1 < name.size()) splits.push_back({{name.substr(0, i + 1), false}, name.substr(i + 1)});
+    if (i > 0) splits.push_back({{name.substr(i), true}, name.substr(0, i)});
   }
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const bool is_number = digits > 0 && digits < name.size();
@@ -58,7 +58,7 @@ class PeopleFinder {
     std::map<std::size_t, std::string> names;
     for (const std::size_t column : columns) {
       const std::string& name = markers_.names[column];
-      names[column] = prefix.empty() ? name.substr(name.rfind(':') + 1) : name.substr(prefix.size() + 1);
+      names[column] = prefix.empty() ? name : name.substr(prefix.size() + 1);
     }
     const MarkerPerson whole = PersonOf(prefix, names);
     // Split the names in all ways. Of two ways for one marker, take the longer text: "Subject_1_", not "Subject_".
@@ -185,6 +185,10 @@ std::vector<MarkerPerson> FindMarkerPeople(const MarkerMotion& markers, const st
   std::vector<MarkerPerson> people;
   for (const auto& [prefix, columns] : groups) {
     std::ranges::move(finder.Find(prefix, columns), std::back_inserter(people));
+  }
+  // Of several people, each needs a name by which a user can choose the person.
+  for (MarkerPerson& person : people) {
+    if (people.size() > 1 && person.name.empty()) person.name = "unnamed";
   }
   // State which people lack markers that the complete people have.
   for (std::size_t i = 0; i < people.size(); ++i) {

@@ -53,12 +53,23 @@ constexpr double kMaxPoses = 500'000;
 constexpr double kMinToldFloor_cm = 0.1;  // smaller heights are rounding errors
 constexpr double kMinBody = 1e-6;  // in the file's unit; a smaller body counts as one without size
 
+/// Returns true for a skeleton that Etude wrote: its joints have the names of roles (ends in a BVH have no names), and
+/// it stands along Y at rest. Such files have Y up.
+bool IsOwnSkeleton(const Skeleton& skeleton, const BodyPose& rest) {
+  constexpr double kStanding = 0.9;
+  constexpr std::array kEnds = {kHead, kLeftHand, kRightHand, kLeftFoot, kRightFoot};
+  return BodyAxis(rest).y > kStanding && std::ranges::all_of(AllRoles(), [&](Role role) {
+           return std::ranges::count(kEnds, role) > 0 || skeleton.Find(std::string(RoleName(role))) >= 0;
+         });
+}
+
 /// Returns the up axis that the user gives, otherwise the format's, otherwise the axis that FindUp finds.
-UpFinding UpOf(const BodyOptions& options, const BodyPose& rest, const UpSamples& samples) {
+UpFinding UpOf(const BodyOptions& options, const Skeleton& skeleton, const BodyPose& rest, const UpSamples& samples) {
   if (options.up) return {.axis = AxisOf(*options.up), .evidence = UpEvidence::kTold};
   if (options.found_up) return *options.found_up;
-  return options.up_rule ? FindUp(samples.poses, samples.rate_hz, *options.up_rule)
-                         : FindUp(rest, samples.poses, samples.rate_hz);
+  if (options.up_rule) return FindUp(samples.poses, samples.rate_hz, *options.up_rule);
+  if (IsOwnSkeleton(skeleton, rest)) return FindUp(samples.poses, samples.rate_hz, OwnJointsUp());
+  return FindUp(rest, samples.poses, samples.rate_hz);
 }
 
 UpAxis AsUpAxis(const UpFinding& up) { return up.axis.z > 0 ? UpAxis::kZ : UpAxis::kY; }
@@ -331,7 +342,7 @@ std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& ma
     std::ranges::move(own.poses, std::back_inserter(samples.poses));
   }
   if (poses.empty() || !std::ranges::all_of(poses, IsFinite)) return std::nullopt;
-  Ground ground{.found_up = UpOf(options, rest, samples)};
+  Ground ground{.found_up = UpOf(options, clips.front().skeleton, rest, samples)};
   ground.up = AsUpAxis(ground.found_up);
   for (BodyPose& pose : poses) pose = Upright(pose, ground.up);
   ground.floor = options.floor.value_or(FindFloor(poses));
@@ -365,6 +376,15 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
 std::string DescribeResampling(double from_hz, double to_hz) {
   const std::string from = fmt::format("{:.6g}", from_hz), to = fmt::format("{:.6g}", to_hz);
   return from == to ? "" : fmt::format("resampled from {} to {} Hz", from, to);
+}
+
+std::string DescribeSlowRate(double rate_hz) {
+  constexpr double kSlow_hz = 7.5;
+  if (rate_hz > kSlow_hz) return "";
+  return fmt::format(
+      "at {:.3g} Hz, the frames are too far apart for fast motion: speeds, accelerations and foot contacts between the "
+      "frames are not known",
+      rate_hz);
 }
 
 std::string DescribeImpossibleHeight(std::span<const BodyPose> poses) {
@@ -411,13 +431,13 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   BodyConversion done;
   const BodyPose rest = sampler.Rest();
   const UpSamples samples = SamplesForUp(clip, sampler);
-  done.found_up = UpOf(options, rest, samples);
+  done.found_up = UpOf(options, clip.skeleton, rest, samples);
   done.up = AsUpAxis(done.found_up);
   std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples.poses) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
-    lies =
-        fmt::format("the body lies along {}{}, and Etude assumes that Y is up", lies, at_rest ? ", also at rest" : "");
+    lies = fmt::format("the body {}{}, and Etude assumes that Y is up",
+                       lies == "−Y" ? "is upside down" : "lies along " + lies, at_rest ? ", also at rest" : "");
     if (at_rest) lies += "; if another axis is up, rotate the file first";
   }
   const std::size_t t_pose = CountForeignTPose(clip, sampler, done.up);
@@ -447,6 +467,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
                            t_pose == 1 ? "" : "s"));
   }
   done.Doubt(DescribeImpossibleHeight(done.motion.poses));
+  done.Doubt(DescribeSlowRate(clip.rate_hz));
   done.Doubt(DescribeRootTravel(clip, map));
   return done;
 }

@@ -109,6 +109,8 @@ glm::dmat4 WorldFromFile(const BodyConversion& body);
 
 /// Describes a change of the rate for users; "" if both rates are printed alike.
 std::string DescribeResampling(double from_hz, double to_hz);
+/// Doubts a rate of at most 7.5 Hz; "" for higher rates.
+std::string DescribeSlowRate(double rate_hz);
 
 /// Returns the median stature over the poses, in their unit.
 double MedianStature(std::span<const BodyPose> poses);

@@ -78,9 +78,14 @@ bool CountsWhole(const NumberRows& table) {
 /// the mean step `mean_step`). A step below 1 counts seconds. Integers with a step below 16 are frame numbers at 30 Hz,
 /// because no skeleton sensor is faster than 60 Hz. Larger steps have the largest unit of `kSmallUnits` that gives a
 /// rate of a Kinect, or else the largest that gives at least 1 Hz. A remark states frame numbers, ticks and
-/// nanoseconds. Returns nullopt if the clock stands still or its steps are too large.
+/// nanoseconds. The unit is the minute if the column's heading says so. Returns nullopt if the clock stands still or
+/// its steps are too large.
 std::optional<double> SecondsPerCount(const NumberRows& table, const std::optional<double>& mean_step,
                                       std::vector<std::string>& remarks) {
+  if (const auto headings = HeadingsOf(table.heading); !headings.empty() && NamesMinutes(headings.front())) {
+    remarks.emplace_back("the heading of the times names minutes");
+    return kMinute_s;
+  }
   constexpr double kMinStepMs = 16;
   std::vector<double> steps;
   for (std::size_t t = 1; t < table.RowCount(); ++t) {

@@ -1,16 +1,13 @@
 #include "io/clips/marker_files.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "engine/base/names.h"
+#include "engine/base/text.h"
 #include "engine/formats/c3d.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/motive_csv.h"
-#include "engine/formats/number_rows.h"
 #include "engine/formats/point_table.h"
 #include "engine/formats/row_clock.h"
 #include "engine/retargeting/array_evidence.h"
@@ -95,40 +92,10 @@ Result<MarkerFile> ReadJointTable(std::string_view text, const std::string& path
   return MarkerFile{ClipFormat::kCsv, std::move(markers), JointCsvUp(), csv.rate_hz.has_value()};
 }
 
-/// Returns true if the headings with `_x_m` are those of Etude's joints, perhaps with typing errors, which ReadJointCsv
-/// reports.
-bool IsJointCsv(std::string_view heading) {
-  constexpr std::string_view kEnd = "_x_m";
-  std::vector<std::string> roles;
-  for (const Role role : AllRoles()) roles.emplace_back(RoleName(role));
-  bool is_found = false;
-  for (const std::string& one : HeadingsOf(heading)) {
-    if (!one.ends_with(kEnd)) continue;
-    const std::string name = one.substr(0, one.size() - kEnd.size());
-    if (std::ranges::find(roles, name) == roles.end() && NearestName(name, roles).empty()) return false;
-    is_found = true;
-  }
-  return is_found;
-}
-
 Result<MarkerFile> ReadTableOfPoints(std::string_view text, const std::string& path) {
   ASSIGN_OR_RETURN(auto table, ReadPointTable(text, path));
   ASSIGN_OR_RETURN(auto markers, LayOnClock(std::move(table.rows), path));
-  std::vector<glm::dvec3> places;
-  for (const auto& frame : markers.frames) {
-    for (const auto& place : frame) places.push_back(place.value_or(NotSeen()));
-  }
-  const auto unit = UnitOfSpread(SpreadOf(places, markers.names.size()));
-  if (!table.has_unit && unit) {
-    markers.metres_per_unit = *unit;
-    for (auto& frame : markers.frames) {
-      for (auto& place : frame) {
-        if (place) *place *= *unit;
-      }
-    }
-    const std::string said = fmt::format("1 unit = {:g} cm, by the size of the body", 100 * *unit);
-    markers.remark += markers.remark.empty() ? said : "; " + said;
-  }
+  if (!table.has_unit) ScaleToPerson(markers);
   return MarkerFile{ClipFormat::kCsv, std::move(markers), TableUp(), table.has_rate, "table"};
 }
 
@@ -139,14 +106,15 @@ std::optional<Result<MarkerFile>> ReadMarkers(std::string_view bytes, const std:
     if (!read) return tl::unexpected(read.error());
     return MarkerFile{format, *std::move(read), std::move(rule)};
   };
+  // A blank line before the P of PathFileType looks like the first two bytes of a C3D, so test for TRC first.
+  const std::string_view heading = FirstLine(bytes);
+  if (heading.starts_with("PathFileType")) return with(ClipFormat::kTrc, ReadTrc(bytes, path), TrcUp());
   if (IsC3d(bytes)) {
     auto read = ReadC3d(bytes, path);
     if (!read) return tl::unexpected(read.error());
     return MarkerFile{ClipFormat::kC3d, std::move(read->markers), C3dUp(read->up, read->is_up_negative)};
   }
   if (IsMotiveCsv(bytes)) return with(ClipFormat::kMotive, ReadMotiveCsv(bytes, path), MotiveUp());
-  const std::string_view heading = bytes.substr(0, bytes.find('\n'));
-  if (heading.starts_with("PathFileType")) return with(ClipFormat::kTrc, ReadTrc(bytes, path), TrcUp());
   if (IsJointCsv(heading)) return ReadJointTable(bytes, path);
   if (IsPointTable(bytes)) return ReadTableOfPoints(bytes, path);
   return std::nullopt;

@@ -160,6 +160,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
     opened.body.motion.poses.push_back(is_turned ? Upright(pose, UpAxis::kZ) : pose);
   }
   opened.body.Doubt(DescribeImpossibleHeight(opened.body.motion.poses));
+  opened.body.Doubt(DescribeSlowRate(opened.source.clip.rate_hz));
   return opened;
 }
 

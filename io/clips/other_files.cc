@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/names.h"
+#include "engine/base/text.h"
 
 namespace etude {
 namespace {
@@ -102,7 +103,7 @@ std::string DescribeOtherFile(std::string_view bytes, std::string_view first_wor
            "files Motive, for .qtm files QTM)";
   }
   const std::string begins = "that begins with " + Quote(std::string(first_word));
-  const std::string_view line = head.substr(0, head.find('\n'));
+  const std::string_view line = FirstLine(head);
   if (std::ranges::count_if(line, [](char c) { return c == ',' || c == ';' || c == '\t'; }) > 1) {
     return "a table " + begins +
            ": for joint positions, use columns such as wrist_x, wrist_y and wrist_z of at least three joints, or "

@@ -10,12 +10,42 @@
 #include <vector>
 
 #include "io/keypoints/frame_numbers.h"
+#include "io/keypoints/layout_doubts.h"
 #include "io/keypoints/people_json.h"
 
 namespace etude {
 
+namespace {
+
+/// Returns the people of an image in AlphaPose's formats `open` and `cmu`, {"people": [{"pose_keypoints_2d": […]}]} and
+/// {"bodies": [{"joints": […]}]}; null for other JSON.
+const Json* PeopleOfImage(const Json& image) {
+  const Json* people = FirstMember(image, {"people", "bodies"});
+  return people != nullptr && people->is_array() ? people : nullptr;
+}
+
+/// Returns true for AlphaPose's formats `open` and `cmu`: an object whose keys are the names of the images.
+bool IsOfImages(const Json& json) {
+  return json.is_object() && !json.empty() && std::ranges::all_of(json, PeopleOfImage);
+}
+
+/// Converts AlphaPose's formats `open` and `cmu` to its usual list of results.
+Json ResultsOfImages(const Json& images) {
+  Json results = Json::array();
+  for (const auto& [name, image] : images.items()) {
+    for (const Json& person : *PeopleOfImage(image)) {
+      const Json* list = FirstMember(person, {"pose_keypoints_2d", "joints"});
+      results.push_back({{"image_id", name}, {"keypoints", list == nullptr ? Json() : *list}});
+    }
+  }
+  return results;
+}
+
+}  // namespace
+
 bool IsKeypointList(const Json& json) {
   if (json.is_array()) return !json.empty();
+  if (IsOfImages(json)) return true;
   const Json* list = FirstMember(json, {"instance_info", "frames"});
   return list != nullptr && list->is_array();
 }
@@ -73,6 +103,17 @@ Result<PeopleOfFilm> ReadResults(const Json& list, const std::string& layout, co
 
 Result<PeopleOfFilm> ReadKeypointList(const Json& json, const std::string& layout, const FilmOfKeypoints& of,
                                       const Place& place) {
+  if (IsOfImages(json)) {
+    ASSIGN_OR_RETURN(auto film, ReadResults(ResultsOfImages(json), layout, of, place));
+    // AlphaPose computes the neck of these formats only for models with 17 keypoints. For other models, it writes
+    // keypoint 17, which is the top of the head or a toe.
+    if (!FitsClearly(film.frames)) {
+      film.Tell(
+          "the neck is not midway between the shoulders; use AlphaPose's usual format for models of more than 17 "
+          "keypoints");
+    }
+    return film;
+  }
   const Json& list = json.is_array() ? json : *FirstMember(json, {"instance_info", "frames"});
   if (list.empty()) return Fail(place, "the list of frames is empty");
   if (Member(list.front(), "image_id") != nullptr) return ReadResults(list, layout, of, place);

@@ -7,12 +7,14 @@
 
 namespace etude {
 
-/// Returns true for a non-empty list, and for an object with a list `instance_info` or `frames`.
+/// Returns true for a non-empty list, for an object with a list `instance_info` or `frames`, and for AlphaPose's
+/// formats `open` and `cmu`.
 bool IsKeypointList(const Json& json);
 
 /// Reads the keypoints of a whole film from one list. Known forms:
 /// - results of COCO's evaluation and of AlphaPose: objects with `image_id` (a number, or a name whose last number
 ///   counts) and `keypoints`; objects without `keypoints` are left out, and `told` says so;
+/// - AlphaPose's formats `open` and `cmu`: one object whose keys are the names of the images;
 /// - MMPose's `instance_info`: objects with `frame_id` and `instances`, names in `meta_info`;
 /// - frames in order, as users of MediaPipe save them: objects with `pose_landmarks`, `landmarks`, `keypoints`,
 ///   `people` or `instances`, or bare lists of people or of points; null means no people.

@@ -321,7 +321,9 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
   ASSIGN_OR_RETURN(const auto order, OrderOf(points.size(), layout, names, place));
   SeenPerson person;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_seen = points[i].confidence > 0 && points[i].pixel != glm::dvec2(kHalfPixel);
+    // Programs write (0, 0) or (−1, −1) for points that they did not find, even with a score.
+    const glm::dvec2 listed = points[i].pixel - kHalfPixel;
+    const bool is_seen = points[i].confidence > 0 && listed != glm::dvec2(0) && listed != glm::dvec2(-1);
     if (order[i] != Landmark::kNoLandmark && is_seen) {
       person[order[i]] = points[i];
     }

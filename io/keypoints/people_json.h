@@ -44,9 +44,9 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place);
 constexpr double kMaxFlag = 2;  ///< COCO's flag of a visible keypoint
 
 /// Makes a person from an estimator's keypoints. The file's names state which keypoint is which landmark. If it states
-/// none, or `layout` is not "", a layout with this number of keypoints states it. A keypoint at exactly (0, 0) in the
-/// file's coordinates was not seen. Fails if none or several layouts have this number of keypoints, if fewer than 12
-/// of the names are known, or if a name contradicts the layout.
+/// none, or `layout` is not "", a layout with this number of keypoints states it. A keypoint at exactly (0, 0) or
+/// (−1, −1) in the file's coordinates was not seen. Fails if none or several layouts have this number of keypoints, if
+/// fewer than 12 of the names are known, or if a name contradicts the layout.
 Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const KeypointNames& names,
                             const Place& place);
 

@@ -36,11 +36,11 @@ struct FilmOfKeypoints {
 /// MediaPipe's landmarks (`keypoint_lists.h`). In these files pixel centres are whole numbers; in the result they end
 /// in .5. COCO's v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score. Scores above 1,
 /// such as percentages, are divided by `film.score_scale`, and `told` says so. A keypoint at exactly (0,
-/// 0) was not seen. If most confident keypoints lie within ±1.1 and the film is known to be larger, coordinates are
-/// taken as shares of the film's width and height; if moreover more than a tenth of them are negative, as coordinates
-/// of −1…1 (OpenPose's --keypoint_scale 4); `told` says so. The names in the file, or without names the number of
-/// keypoints, determine which keypoint is which landmark. 25 keypoints are taken as `body_25` if the mid-hip lies
-/// between the hips, and `told` says so; `doubt` says if the position of the mid-hip contradicts a `layout` of 25
+/// 0) or (−1, −1) was not seen. If most confident keypoints lie within ±1.1 and the film is known to be larger,
+/// coordinates are taken as shares of the film's width and height; if moreover more than a tenth of them are negative,
+/// as coordinates of −1…1 (OpenPose's --keypoint_scale 4); `told` says so. The names in the file, or without names the
+/// number of keypoints, determine which keypoint is which landmark. 25 keypoints are taken as `body_25` if the mid-hip
+/// lies between the hips, and `told` says so; `doubt` says if the position of the mid-hip contradicts a `layout` of 25
 /// keypoints. Fails if there are no frames or if numbers are not finite. With an empty `layout`, also fails if neither
 /// the names nor the number of keypoints determine the landmarks. The error states the file, what was found, and what
 /// is allowed.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/rigid_targets.h"
 #include "engine/formats/row_clock.h"
@@ -28,9 +29,7 @@ constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kRightThigh, T::kRightTibia,   T::kRightTibia,   T::kRightFoot};  // right leg
 
 /// Returns true if the text is a joint file, which has a line of headings.
-bool IsJointCsv(std::string_view text) {
-  return text.substr(0, text.find('\n')).find("_x_m") != std::string_view::npos;
-}
+bool IsJointCsv(std::string_view text) { return FirstLine(text).find("_x_m") != std::string_view::npos; }
 
 TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   TwinMotion twin;

@@ -82,6 +82,21 @@ TEST(JointCsv, RowsAreReadOneByOneAsInTheFile) {
             "m.csv:2: value 2: found 2000000000; allowed: a number within ±1e+09, or nan for a missing value");
 }
 
+TEST(JointCsv, TakesTimesInMinutesWhereTheHeadingNamesThem) {
+  for (const char* heading : {"time_min", "minutes", "Time (min)"}) {
+    const std::string heads = heading + std::string(",head_x_m,head_y_m,head_z_m\n");
+    ASSERT_OK(read, ReadJointCsv(heads + "2,1,2,3\n2.001,1,2,3\n2.002,1,2,3\n", "m.csv"));
+    EXPECT_NEAR(*read->rate_hz, 1000 / 60.0, 1e-6) << heading;
+    EXPECT_NEAR(read->times_s[2], 120.12, 1e-9);
+    EXPECT_EQ(read->remark, "the heading of the times names minutes");
+    EXPECT_NEAR(ReadJointCsvRow("3,1,2,3", read->columns, "m.csv")->time_s, 180, 1e-9);
+  }
+  EXPECT_NEAR(*ReadJointCsv("time_s,head_x_m,head_y_m,head_z_m\n2,1,2,3\n2.001,1,2,3\n", "m.csv")->rate_hz, 1000, 1e-6)
+      << "the control";
+  EXPECT_EQ(testing::Refusal(ReadJointCsv("time_s,time_min,head_x_m,head_y_m,head_z_m\n0,0,1,2,3\n", "m.csv")),
+            "m.csv:1: found two columns of times, 'time_s' and 'time_min'; allowed: one");
+}
+
 TEST(JointCsv, TakesTabsDecimalCommasQuotesAndTimesSince1970AndLeavesTextsOut) {
   const std::string heads = "time_s,head_x_m,head_y_m,head_z_m,label,head_note\n";
   const std::string rows = "1600000000.5,1.5,-2.25,\"3\",walk,a\n1600000000.75,4.5,5,6,walk,7\n";

@@ -144,7 +144,8 @@ TEST(ArrayTimes, ThatAreNoClockAreRefused) {
   Npz npz = ArraysAt(Times(false));
   npz.arrays["t"] = {.shape = {120, 3}, .values = std::vector<double>(360, 1)};
   npz.arrays["time"] = {.shape = {}, .values = {12.5}};
-  EXPECT_THAT(testing::Refusal(ReadRawNpz(npz, "a.npz")), HasSubstr("found no rate_hz"));
+  EXPECT_THAT(testing::Refusal(ReadRawNpz(npz, "a.npz")),
+              ::testing::AllOf(HasSubstr("found no rate_hz"), HasSubstr("(the file's arrays: positions, t, time")));
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/formats/bvh.h"
 #include "engine/motion/clip.h"
+#include "engine/retargeting/rig.h"
 #include "tests/support/gaps.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"
@@ -49,6 +52,25 @@ TEST(FromBody, IsAClipThatIsUnderstoodAsTheBodyItWas) {
   ASSERT_OK(read, testing::ReadBody(WriteBvh(ToClip(motion, "person")), "person.bvh"));
   ASSERT_EQ(read->motion.poses.size(), motion.poses.size());
   EXPECT_LT(WorstJointDistance(read->motion.poses[1], motion.poses[1]), 1e-3);
+}
+
+// A body lies face down on a bench, and its hands move up and down beside the bench.
+TEST(FromBody, ThatLiesOnABenchStillLiesAfterAFile) {
+  const Clip person = testing::AtRest(testing::PersonSkeleton(), 60);
+  ASSERT_OK(map, FindJointMap(person.skeleton, "person.bvh"));
+  BodyMotion motion = ToBodyMotion(person, *map, "person.bvh")->motion;
+  const BodyPose rest = motion.poses.front();
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    BodyPose& pose = motion.poses[t];
+    for (glm::dvec3& p : pose.joints) p = {p.x, .6 - p.z, p.y};
+    for (const Role hand : {Role::kLeftHand, Role::kRightHand}) pose[hand].y -= .4 + .2 * std::sin(.3 * t);
+  }
+  ASSERT_OK(read, testing::ReadBody(WriteBvh(RigClip(motion, rest, "bench")), "bench.bvh"));
+  ASSERT_EQ(read->motion.poses.size(), motion.poses.size());
+  for (const std::size_t t : {0u, 30u}) {
+    const auto along = [t](const BodyMotion& of) { return of.poses[t][Role::kHead] - of.poses[t][Role::kHipCentre]; };
+    EXPECT_LT(glm::distance(along(read->motion), along(motion)), 1e-3) << t;
+  }
 }
 
 }  // namespace

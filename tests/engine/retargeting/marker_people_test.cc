@@ -87,8 +87,15 @@ TEST(MarkerPeople, AreSeveralWhereNamesBeginOrEndDifferently) {
         Naming{Before("S1-"), Before("S2-"), {"S1 at 0.0", "S2 at 2.0"}},
         Naming{Before("a/"), Before("b/"), {"a at 0.0", "b at 2.0"}},
         Naming{Before("Subject_1_"), Before("Subject_2_"), {"Subject_1 at 0.0", "Subject_2 at 2.0"}},
-        Naming{none, Before("p2_"), {" at 0.0", "p2 at 2.0"}}, Naming{none, After("_2"), {" at 0.0", "2 at 2.0"}},
-        Naming{none, After("2"), {" at 0.0", "2 at 2.0"}}, Naming{After(".1"), After(".2"), {"1 at 0.0", "2 at 2.0"}},
+        Naming{none, Before("p2_"), {"unnamed at 0.0", "p2 at 2.0"}},
+        Naming{none, After("_2"), {"unnamed at 0.0", "2 at 2.0"}},
+        Naming{none, After("2"), {"unnamed at 0.0", "2 at 2.0"}},
+        Naming{Before(":"), Before("B:"), {"unnamed at 0.0", "B at 2.0"}},
+        Naming{none, Before(":"), {"unnamed at 0.0", ": at 2.0"}},
+        Naming{none, Before("_"), {"unnamed at 0.0", "_ at 2.0"}},
+        Naming{After("_1"), Before("_"), {"1 at 0.0", "_ at 2.0"}},
+        Naming{After("_"), Before("B_"), {"B at 2.0", "_ at 0.0"}},
+        Naming{After(".1"), After(".2"), {"1 at 0.0", "2 at 2.0"}},
         Naming{Before("take:p1_"), Before("take:p2_"), {"take_p1 at 0.0", "take_p2 at 2.0"}}}) {
     MarkerMotion take;
     Add(take, 0, first);

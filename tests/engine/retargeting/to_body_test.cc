@@ -439,6 +439,12 @@ TEST(ToBodyMotion, UnderstandsPushUps) {
   EXPECT_THAT(body->Note(), Not(HasSubstr("rotate the file first")));
 }
 
+TEST(ToBodyMotion, SaysThatABodyIsUpsideDown) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 5);
+  for (LocalPose& frame : clip.frames) frame[0].rotation = Turn(Radians(180), {1, 0, 0});
+  EXPECT_THAT(Convert(clip)->doubts, ::testing::Contains("the body is upside down, and Etude assumes that Y is up"));
+}
+
 TEST(ToBodyMotion, TellsThatABodyLiesWhoseUpAxisNobodyKnows) {
   for (const auto& [turn, axis] :
        {std::pair(Turn(Radians(-90), {0, 0, 1}), "X"), std::pair(Turn(Radians(-90), {1, 0, 0}), "−Z")}) {
@@ -520,6 +526,13 @@ TEST(ToBodyMotion, SaysThatTheRootTravelsInAnotherUnit) {
   EXPECT_THAT(Convert(glides)->doubts, ::testing::IsEmpty());
   for (std::size_t f = 0; f < 60; ++f) At(glides, f, "Hips").translation.z *= 100;
   EXPECT_THAT(Convert(glides)->doubts, ::testing::ElementsAre(HasSubstr("have a smaller unit than the limbs")));
+}
+
+TEST(ToBodyMotion, DoubtsRatesThatShowNoFastMotion) {
+  for (const double rate : {2.0, 7.5})
+    EXPECT_THAT(Convert(AtRest(testing::PersonSkeleton(), 9, rate))->doubts,
+                ::testing::Contains(::testing::StartsWith(fmt::format("at {:.3g} Hz, the frames are too far", rate))));
+  EXPECT_THAT(Convert(AtRest(testing::PersonSkeleton(), 9, 10))->doubts, ::testing::IsEmpty());
 }
 
 TEST(ToBodyMotion, SaysAnImpossibleHeightAndNoChangeOfRateThatReadsAlike) {

@@ -114,6 +114,25 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
 }
 
+TEST(Streams, AClockCountsMinutesIfItsHeadingNamesThem) {
+  const std::string rows = WithClock(KinectV1Text(WavingMotion()), 5, .1 / 60);  // 10 Hz
+  EXPECT_EQ(Made("time_min joints\n" + rows).stream.frames.size(), 178u);
+  EXPECT_NEAR(Made("time_min joints\n" + rows).start_s, 300, 1e-9);
+  EXPECT_NE(Made("time joints\n" + rows).stream.frames.size(), 178u) << "the control";
+}
+
+TEST(Streams, LinesMayEndAsOnOldMacs) {
+  for (std::string rows :
+       {KinectV1Text(WavingMotion()), WriteJointCsv(WavingMotion()), WriteTrc(WavingMotion(), "t")}) {
+    const MadeStream made = Made(rows);
+    std::ranges::replace(rows, '\n', '\r');
+    const MadeStream of_mac = Made(rows);
+    ASSERT_EQ(of_mac.stream.frames.size(), made.stream.frames.size());
+    for (std::size_t t = 0; t < made.stream.frames.size(); ++t)
+      EXPECT_EQ(PoseOf(of_mac.stream.frames[t]).joints, PoseOf(made.stream.frames[t]).joints) << t;
+  }
+}
+
 TEST(Streams, ClocksInAnotherUnitAreRefused) {
   const std::string text = AzureText(WavingMotion());
   const auto scaled = [&](double factor) {

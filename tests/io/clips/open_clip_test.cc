@@ -1,10 +1,18 @@
 #include "io/clips/open_clip.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+#include "engine/retargeting/rig.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/references.h"
-#include "engine/retargeting/rig.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/song.h"
 #include "tests/io/clips/clip_folder.h"
@@ -44,6 +52,36 @@ TEST_F(OpenClipTest, AByteOrderMarkBeforeTextChangesNothing) {
   ASSERT_OK(plain, ReadClips(Write("plain.trc", trc)));
   ASSERT_OK(marked, ReadClips(Write("marked.trc", "\xEF\xBB\xBF" + trc)));
   EXPECT_EQ(marked->at(0).clip.frames, plain->at(0).clip.frames);
+}
+
+TEST_F(OpenClipTest, LineEndsOfOldMacsAndLeadingBlankLinesChangeNothing) {
+  BodyMotion waving{.rate_hz = 30, .poses = std::vector<BodyPose>(40, StandingPose())};
+  for (std::size_t t = 0; t < waving.poses.size(); ++t)
+    waving.poses[t][Role::kLeftHand].y += .2 * std::sin(.3 * static_cast<double>(t));
+  const std::string motive =
+      "Format Version,1.23,Export Frame Rate,60.0,Length Units,Meters,Coordinate Space,Global\n\n,Type" + [] {
+        std::string types, names = "\n,Name", kinds = "\n,", axes = "\nFrame,Time (Seconds)", first, second;
+        const BodyPose pose = StandingPose();
+        for (const Role role : AllRoles()) {
+          for (int axis = 0; axis < 3; ++axis) {
+            types += ",Bone", kinds += ",Position", names += "," + std::string(RoleName(role));
+            axes += std::string(",") + "XYZ"[axis], first += fmt::format(",{}", pose[role][axis]);
+          }
+        }
+        return types + names + kinds + axes + "\n0,0.0" + first + "\n1,0.0166667" + first + "\n";
+      }();
+  for (const auto& [name, text] :
+       {std::pair("a.trc", WriteTrc(waving, "waving")), {"a.csv", WriteJointCsv(waving)}, {"m.csv", motive}}) {
+    ASSERT_OK(plain, ReadClips(Write(name, text)));
+    std::string of_mac = text, twice;
+    std::ranges::replace(of_mac, '\n', '\r');
+    for (const char c : text) twice += c == '\n' ? std::string("\r\r\n") : std::string(1, c);
+    for (const std::string& other : {of_mac, twice, "\n" + text, "\r\n \r\n" + text, "\xEF\xBB\xBF\n" + text}) {
+      ASSERT_OK(read, ReadClips(Write(name, other)));
+      EXPECT_EQ(read->at(0).clip.frames, plain->at(0).clip.frames) << name;
+      EXPECT_EQ(read->at(0).format, plain->at(0).format) << name;
+    }
+  }
 }
 
 TEST_F(OpenClipTest, AClockOfMillisecondsAndARateThatNoFileStatesAreSaid) {

@@ -114,6 +114,18 @@ TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
   EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("not valid JSON"));
 }
 
+TEST_F(ReadPeople, PointsAtTheOriginOrAtMinusOneWereNotSeenWhateverTheirScore) {
+  Write("a/f_0.json", OpenPose(25, "0, 0, 0.9, 30, 40, 0.7"));
+  Write("a/f_1.json", OpenPose(25, "-1, -1, 0.9, 30, 40, 0.7"));
+  Write("a/f_2.json", OpenPose(25, "-1, 20, 0.9, 30, 40, 0.7"));
+  ASSERT_OK(film, ReadKeypoints(folder_.path() / "a", ""));
+  for (const auto& [frame, confidence] : {std::pair(0, 0.0), {1, 0.0}, {2, 0.9}}) {
+    ASSERT_EQ(film->frames[frame].size(), 1u);
+    EXPECT_EQ(film->frames[frame][0][Landmark::kNose].confidence, confidence) << frame;
+    EXPECT_EQ(film->frames[frame][0][Landmark::kLeftEye].confidence, 0.7) << "the control";
+  }
+}
+
 TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
   Write("a/1.json", OpenPose(25));
   EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; use --layout to choose one"));
@@ -259,6 +271,33 @@ TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName)
   EXPECT_THAT(within->told, HasSubstr("assumes that the numbers count from 0"));
   EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")),
               HasSubstr("the image_id of a result contains no number"));
+}
+
+TEST_F(ReadPeople, ReadsAlphaPosesFormatsOpenAndCmu) {
+  // Nose, neck, right arm, left arm, right leg, left leg, eyes, ears; `neck` is the neck's row.
+  const auto points = [](int neck) {
+    return fmt::format(
+        "50, 20, 1.5, 50, {}, 1.5, 40, 40, 1, 30, 60, 1, 30, 80, 1, 60, 40, 1, 70, 60, 1, 70, 80, 1, 45, 90, 1, 45, "
+        "130, 1, 45, 170, 1, 55, 90, 1, 55, 130, 1, 55, 170, 1, 48, 18, 1, 52, 18, 1, 46, 19, 1, 54, 19, 1",
+        neck);
+  };
+  for (const auto& [people, list] : {std::pair("people", "pose_keypoints_2d"), {"bodies", "joints"}}) {
+    for (const int neck : {40, 10}) {
+      std::string text;
+      for (const int image : {0, 1, 3}) {
+        text += fmt::format(R"({}"v_{}.jpg": {{"version": "AlphaPose v0.3", "{}": [{{"{}": [{}]}}]}})",
+                            text.empty() ? "" : ", ", image, people, list, points(neck));
+      }
+      const auto file = Write("alpha.json", "{" + text + "}");
+      ASSERT_OK(film, ReadKeypoints(file, "", {.width = 640, .height = 480, .frames = 4}));
+      ASSERT_EQ(film->frames.size(), 4u);
+      EXPECT_TRUE(film->frames[2].empty());
+      ASSERT_EQ(film->frames[3].size(), 1u);
+      EXPECT_EQ(film->frames[3][0][Landmark::kNose].pixel, glm::dvec2(50.5, 20.5));
+      EXPECT_EQ(film->frames[3][0][Landmark::kLeftAnkle].pixel, glm::dvec2(55.5, 170.5));
+      EXPECT_EQ(film->told.find("is not midway between the shoulders") != std::string::npos, neck == 10) << film->told;
+    }
+  }
 }
 
 TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
