@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
+#include "bench/scenario/scenario.h"
 #include "bench/scenario/sweep.h"
 #include "engine/document/fields.h"
 
@@ -32,6 +34,18 @@ void Put(const Node::Entry& entry, Entries& entries) {
   }
 }
 
+/// Returns true if `sweep` contains the parameter, alone or in a group of `together`.
+bool Sweeps(const Node& sweep, const std::string& parameter) {
+  const auto contains = [&](const Node& node) { return node.Find(parameter) != nullptr; };
+  const Node* together = sweep.Find("together");
+  return contains(sweep) ||
+         (together != nullptr && (contains(*together) || std::ranges::any_of(together->items, contains)));
+}
+
+bool IsCommonKey(const std::string& key) {
+  return std::ranges::any_of(CommonScenarioKeys(), [&](const KeyInfo& other) { return other.key == key; });
+}
+
 bool IsKeyOfFiles(const std::string& key) {
   return std::ranges::any_of(FileKeys(), [&](const KeyInfo& other) { return other.key == key; });
 }
@@ -55,7 +69,8 @@ class Collector {
     if (list == nullptr) {
       Node scenario = top;
       std::erase_if(scenario.entries, [](const auto& entry) { return entry.key == "include"; });
-      return std::vector<Node>{WithDefaults(std::move(scenario), defaults)};
+      ASSIGN_OR_RETURN(scenario, WithDefaults(std::move(scenario), defaults));
+      return std::vector<Node>{std::move(scenario)};
     }
     // The file contains a list of scenarios. Check its keys and size.
     Fields fields(top, "a file of several scenarios");
@@ -80,16 +95,25 @@ class Collector {
         if (!IsKeyOfFiles(entry.key)) continue;
         return Fail(entry.place, "'{}' is allowed only at the top level of a file, not in a scenario", entry.key);
       }
-      scenarios.push_back(WithDefaults(item, defaults));
+      ASSIGN_OR_RETURN(scenarios.emplace_back(), WithDefaults(item, defaults));
     }
     return scenarios;
   }
 
  private:
-  static Node WithDefaults(Node scenario, const Entries& defaults) {
+  /// Fails if a scenario's own key is also in its sweep, which would replace the key's value. The sweep may replace a
+  /// default.
+  static Result<Node> WithDefaults(Node scenario, const Entries& defaults) {
     if (scenario.kind != Node::Kind::kMapping) return scenario;  // the reader of the scenario reports the error
+    const std::size_t own = scenario.entries.size();
     for (const Node::Entry& entry : defaults) {
       if (scenario.Find(entry.key) == nullptr) scenario.entries.push_back(entry);
+    }
+    const Node* sweep = scenario.Find("sweep");
+    for (const Node::Entry& entry : std::span(scenario.entries).first(own)) {
+      // ReadSweep reports a sweep of a common key.
+      if (sweep == nullptr || IsCommonKey(entry.key) || !Sweeps(*sweep, entry.key)) continue;
+      return Fail(entry.place, "'{}' is also in sweep; allowed: a value here or values in sweep, not both", entry.key);
     }
     return scenario;
   }

@@ -21,10 +21,25 @@ TEST(Sweep, TakesTheProductLastFastest) {
 }
 
 TEST(Sweep, PutsAValueWhereItsKeyIsReadAndPointsAtIt) {
-  const Scenario scenario = ParseOne(kHead + kMethods + "max_sweeps: 7\nsweep: {max_sweeps: [1, 2]}\n");
+  const Scenario scenario = ParseOne(
+      "defaults: {question: q, task: ik, methods: [{name: a}, {name: b}], max_sweeps: 7}\n"
+      "scenarios:\n- scenario: s\n  sweep: {max_sweeps: [1, 2]}\n");
   ASSERT_EQ(scenario.conditions.size(), 2u);
   EXPECT_EQ(scenario.conditions[1].node.Find("max_sweeps")->scalar, "2");
-  EXPECT_EQ(ToString(scenario.conditions[1].node.Find("max_sweeps")->place), "s.yaml:6:25");
+  EXPECT_EQ(ToString(scenario.conditions[1].node.Find("max_sweeps")->place), "s.yaml:4:27");
+}
+
+TEST(Sweep, RefusesAParameterThatTheScenarioAlsoSets) {
+  const std::string said = "s.yaml:5:1: 'max_sweeps' is also in sweep";
+  for (const char* sweep : {"{max_sweeps: [1, 2]}", "{together: {max_sweeps: [1, 2], poses: [0.5, 1]}}",
+                            "{together: [{max_sweeps: [1, 2], poses: [0.5, 1]}]}"}) {
+    EXPECT_THAT(Complaint(kHead + kMethods + "max_sweeps: 7\nsweep: " + sweep + "\n"), HasSubstr(said));
+    // The sweep may also come from an included file.
+    const SourceTexts included = {{"d.yaml", std::string("defaults: {sweep: ") + sweep + "}\n"}};
+    const std::string includes = kHead + kMethods + "max_sweeps: 7\ninclude: [d.yaml]\n";
+    EXPECT_THAT(Complaint(includes, included), HasSubstr(said));
+    EXPECT_EQ(Complaint(includes + "sweep: {}\n", included), "");
+  }
 }
 
 TEST(Sweep, TakesRangesByStepAndByCount) {
