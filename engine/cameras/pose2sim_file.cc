@@ -119,6 +119,12 @@ Result<Values> ValuesOf(const std::string& name, const toml::table& keys,
   return values;
 }
 
+/// Returns true if a table describes a camera that is only planned.
+bool IsPlanned(const toml::table& keys) {
+  const bool is_calibrated = keys.contains("matrix") || keys.contains("rotation");
+  return keys.contains("look_at") || (keys.contains("fov_deg") && !is_calibrated);
+}
+
 /// Returns the value of a key that is true or false; `otherwise` if the table does not have the key.
 Result<bool> TruthOf(const std::string& name, const toml::table& keys, const char* key, bool otherwise) {
   const toml::node* value = keys.get(key);
@@ -130,6 +136,12 @@ Result<bool> TruthOf(const std::string& name, const toml::table& keys, const cha
 /// Reads the table of a planned camera: its lens has no distortion, and its picture is upright.
 Result<OpenCvParameters> ReadPlanned(const std::string& name, const toml::table& keys) {
   ASSIGN_OR_RETURN(Values values, ValuesOf(name, keys, {{"size", 2}, {"fov_deg", 1}, {"position", 3}, {"look_at", 3}}));
+  // The user wrote this table, so a further key is a mistake. Tables of calibrated cameras come from other programs.
+  const std::vector<std::string> known = {"name", "size", "fov_deg", "position", "look_at", "ignore"};
+  for (const auto& [key, value] : keys) {
+    if (std::ranges::find(known, key.str()) != known.end()) continue;
+    return Fail(PlaceOf(key.source()), "camera {}: {}", name, UnknownName("key of a planned camera", key.str(), known));
+  }
   const auto point = [&](const char* key) {
     const auto& v = values[key];
     return kYUpOfZUp * glm::dvec3(v[0], v[1], v[2]);
@@ -185,7 +197,7 @@ void AddCameraTables(const toml::node& node, const std::string& name, std::vecto
     return name.empty() ? fmt::format("{}", key) : fmt::format("{}.{}", name, key);
   };
   if (const toml::table* keys = node.as_table()) {
-    if (keys->contains("matrix") || keys->contains("rotation") || keys->contains("look_at")) {
+    if (keys->contains("matrix") || keys->contains("rotation") || IsPlanned(*keys)) {
       // Caliscope's tables are named cameras.0, cameras.1, …
       constexpr std::string_view kOf = "cameras.";
       tables.push_back({name.starts_with(kOf) ? "cam_" + name.substr(kOf.size()) : name, keys});
@@ -199,8 +211,7 @@ void AddCameraTables(const toml::node& node, const std::string& name, std::vecto
 
 Result<NamedCamera> ReadTable(const CameraTable& table) {
   const auto& [name, keys] = table;
-  ASSIGN_OR_RETURN(const OpenCvParameters p,
-                   keys->contains("look_at") ? ReadPlanned(name, *keys) : ReadCalibrated(name, *keys));
+  ASSIGN_OR_RETURN(const OpenCvParameters p, IsPlanned(*keys) ? ReadPlanned(name, *keys) : ReadCalibrated(name, *keys));
   const auto camera = CameraOf(p);
   if (!camera) return Fail(PlaceOf(*keys), "camera {}: {}", name, camera.error().message);
   // Prefer the name under the table's own key `name`.

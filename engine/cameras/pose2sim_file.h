@@ -22,8 +22,8 @@ std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 /// `rotation` is Rodrigues' vector or a matrix. A list may continue over several lines. Other tables (`metadata`) and
 /// Caliscope's ignored cameras are skipped. The files contain neither unit nor axes: metres and Pose2Sim's Z up are
 /// assumed. A camera that is only planned has `size`, `fov_deg` (horizontal), `position` and `look_at` (the point in
-/// the middle of its picture) instead *(ours)*. Fails, naming line and camera, if a table lacks one of the keys or its
-/// values do not describe a camera.
+/// the middle of its picture) instead *(ours)*, and no other keys but `name` and `ignore`. Fails, naming line and
+/// camera, if a table lacks one of the keys or its values do not describe a camera.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
 }  // namespace etude

@@ -1,7 +1,9 @@
 #include "engine/cameras/pose2sim_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/support/replaced.h"
@@ -192,11 +194,27 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
         {seat, "camera a has no fov_deg"},
         {"fov = 90\n" + seat, "camera a has no fov_deg; is 'fov' a misspelling of it?"},
         {"fov_dge = 90\n" + seat, "camera a has no fov_deg; is 'fov_dge' a misspelling of it?"},
+        {"fov_deg = 90\nposition = [-3, 1, 2]\nlok_at = [0, 1, 1]\n",
+         "camera a has no look_at; is 'lok_at' a misspelling of it?"},
         {"fov_deg = 90\nposition = [0, 1, 2]\nlook_at = [0, 1, 1]\n",
          "camera a: 'look_at' is at, above or below the camera's position; allowed: a point at another horizontal "
          "position"},
         {"fov_deg = 90\nposition = [0, 1]\nlook_at = [0, 1, 1]\n", "camera a: position has 2 numbers; allowed: 3"}}) {
     EXPECT_EQ(planned(keys).error().message, said);
+  }
+  // A key that a planned camera does not have is refused at its place, also a key of calibrated cameras.
+  EXPECT_TRUE(planned("name = 'left'\nignore = false\nfov_deg = 90\n" + seat));
+  const std::string allowed = "Allowed: name, size, fov_deg, position, look_at, ignore";
+  for (const auto& [line, key, hint] : {std::array{"positon = [9, 9, 9]", "positon", "; did you mean 'position'? "},
+                                        {"roll_deg = 90", "roll_deg", ". "},
+                                        {"distortions = [-0.4, 0.1, 0, 0]", "distortions", ". "},
+                                        {"matrix = [[5000, 0, 400], [0, 5000, 300], [0, 0, 1]]", "matrix", ". "},
+                                        {"fisheye = true", "fisheye", ". "}}) {
+    const auto refused = planned("fov_deg = 90\n" + std::string(line) + "\n" + seat);
+    ASSERT_FALSE(refused) << line;
+    EXPECT_EQ(refused.error().message,
+              fmt::format("camera a: unknown key of a planned camera '{}'{}{}", key, hint, allowed));
+    EXPECT_EQ(refused.error().place.line, 4);
   }
 }
 
