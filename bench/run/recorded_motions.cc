@@ -11,8 +11,10 @@
 #include "bench/results/row_json.h"
 #include "engine/base/names.h"
 #include "engine/retargeting/rig.h"
+#include "io/clips/clip_file.h"
 #include "io/clips/marker_files.h"
 #include "io/clips/open_clip.h"
+#include "io/files/files.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {
@@ -91,7 +93,7 @@ class ResultFolders : public RecordedMotions {
       animation = wanted.animation->substr(at + 1);
       for (const std::string& world : {cell, cell.substr(0, cell.rfind('/'))}) {
         const FilePath other = RecordingFile(run, world + "/" + *animation);
-        if (Exists(other)) return ReferTo(other, "");
+        if (Exists(other) && !IsTrack(run, cell, *animation)) return ReferTo(other, "");
       }
     }
     const std::vector<FilePath> files = RecordingsOf(run, cell);
@@ -109,6 +111,19 @@ class ResultFolders : public RecordedMotions {
       if (std::ranges::find(clips, name, &Clip::name) != clips.end()) return name;
     }
     return clips.back().name;
+  }
+
+ private:
+  /// Returns true if `name`, which is the name of a method, is also a track of the cell's recording: the track is
+  /// meant. If `cell` names a world but no method, only "truth" is a track, because each method has its own of the
+  /// others.
+  bool IsTrack(const fs::path& run, const std::string& cell, const std::string& name) const {
+    const std::vector<FilePath> files = RecordingsOf(run, cell);
+    if (files.empty() || (name != "truth" && !Exists(RecordingFile(run, cell)))) return false;
+    const auto text = ReadWholeFile(files.front(), kMaxClipFileBytes);
+    if (!text) return false;
+    const auto recording = Read(*text, files.front().string(), {});
+    return recording && std::ranges::find(recording->clips, name, &Clip::name) != recording->clips.end();
   }
 };
 

@@ -270,17 +270,28 @@ class Run:
         """Returns a motion from a cell's recording.
 
         cell: a row, or the name of a cell. name: "truth", another track of the recording ("sensed", "solution", …; of
-        a compared pair of files "answer"), or a method, for this method's motion in the same world. Raises EtudeError that lists the existing names.
+        a compared pair of files "answer"), or a method, for this method's motion in the same world. A track comes before
+        a method of the same name. Raises EtudeError that lists the existing names.
         """
         cell = cell["cell"] if isinstance(cell, dict) else cell
         recorded = self.recorded()
         world, _, own = cell.rpartition("/")
         methods = self._scenarios.get(cell.partition("/")[0], {"methods": []})["methods"]
-        if name in methods and name != own:
+        if name in methods and name != own and not (cell in recorded and name in self._tracks(cell)[0]):
             cell, own = f"{world}/{name}", name
         if cell not in recorded:
             raise EtudeError(f"cell '{cell}' has no recording; the scenario's key `video`, or --keep motions, selects "
                              f"the cells to record{nearest(cell, recorded)}; recorded cells: {', '.join(recorded) or 'none'}")
+        tracks, joints = self._tracks(cell)
+        if name == own and name not in tracks:
+            name = next((each for each in ("recovered", "solution", "coach", "sensed", "answer") if each in tracks), name)
+        if name not in tracks:
+            raise EtudeError(f"the recording of cell '{cell}' has no track '{name}'{nearest(name, tracks)}; there are "
+                             f"{', '.join(tracks)}")
+        return _motion(cell, tracks[name], joints)
+
+    def _tracks(self, cell):
+        """Returns the tracks of a cell's recording by name, and each joint with the joint above it."""
         path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
         told = json.loads(path.read_text(encoding="utf-8"))
         if told.get("recording") != 2:
@@ -294,12 +305,7 @@ class Run:
                       for track in ("truth", "answer")}
             joints = [(joint, extras["joints"][above] if above >= 0 else None)
                       for joint, above in zip(extras["joints"], extras["parents"])]
-        if name == own:
-            name = next((each for each in ("recovered", "solution", "coach", "sensed", "answer") if each in tracks), name)
-        if name not in tracks:
-            raise EtudeError(f"the recording of cell '{cell}' has no track '{name}'{nearest(name, tracks)}; there are "
-                             f"{', '.join(tracks)}")
-        return _motion(cell, tracks[name], joints)
+        return tracks, joints
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
         """Yields the cells' curves with this name; all curves if `name` is None."""

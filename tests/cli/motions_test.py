@@ -100,6 +100,20 @@ class Motions(MotionFileCase):
         other = self.joints(f"{self.run_folder}#transition/-/000/a@b")
         self.assertEqual(len(other), len(self.recorded("transition/-/000/b")["tracks"][0]["poses"]))
 
+    def test_a_track_comes_before_a_method_of_its_name(self):
+        scenario = self.write("named.yaml", "scenario: s\nquestion: Q?\ntask: ik\ntrials: 1\nmethods:\n"
+                              "  - {name: ours, solver: ccd, weights: fixed}\n  - {name: truth, solver: gauss-newton}\n")
+        out = self.folder / "named"
+        result = self.etude("run", scenario, "-o", out, "--keep", "motions")
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        tracks = {method: {track["name"]: track["poses"][-1] for track in json.loads(
+            (out / f"recordings/s~-~000~{method}.json").read_text())["tracks"]} for method in ("ours", "truth")}
+        for name, (method, track) in {"000@truth": ("ours", "truth"), "000/ours@truth": ("ours", "truth"),
+                                      "000/truth@truth": ("truth", "truth"), "000/truth@solution": ("truth", "solution"),
+                                      "000/truth@": ("truth", "solution"), "000/truth@ours": ("ours", "solution")}.items():
+            last = self.joints(f"{out}#s/-/{name}")[-1]
+            numpy.testing.assert_allclose(numpy.ravel(list(last.values())), tracks[method][track], atol=1e-9, err_msg=name)
+
     def test_it_stands_wherever_a_clip_may(self):
         clips = [f"{self.run_folder}#detection/-/000@{name}" for name in ("truth", "a")]
         for arguments in (("clip", "grades", *clips), ("bridge", *clips), ("teach", *clips, "-o", self.folder / "moves.yaml")):

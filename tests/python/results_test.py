@@ -139,6 +139,19 @@ class Results(PythonCase):
         self.assertEqual(self.run_.motion(cell, "adaptive").name, "solution")
         self.assertEqual(self.run_.motion(cell, "fixed").cell, "ik/joint_noise_deg=15/000/fixed")
 
+    def test_a_track_comes_before_a_method_of_its_name(self):
+        methods = [{**method, "name": name} for method, name in zip(SCENARIO["methods"], ("ours", "truth"))]
+        scenario = {**SCENARIO, "methods": methods, "trials": 1, "video": {"compare": ["ours", "truth"], "trials": [0]}}
+        run = etude.run(scenario, output=self.folder / "run", jobs=1, progress=False)
+        for method in ("ours", "truth"):
+            cell = f"ik/joint_noise_deg=15/000/{method}"
+            told = json.loads((run.folder / "recordings" / (cell.replace("/", "~") + ".json")).read_text())["tracks"]
+            poses = {track["name"]: track["poses"] for track in told}
+            for motion, track in ((run.motion(cell), "truth"), (run.motion(cell, "solution"), "solution")):
+                self.assertEqual((motion.cell, motion.name), (cell, track))
+                self.assertEqual([x for joint in motion.positions_m[-1] for x in joint], poses[track][-1])
+            self.assertNotEqual(poses["truth"][-1], poses["solution"][-1])
+
     def test_series_are_those_of_the_file(self):
         lines = [json.loads(line) for line in (self.out / "series/ik.jsonl").read_text().splitlines()]
         wanted = {line["cell"]: each["values"] for line in lines for each in line["series"]
