@@ -440,7 +440,8 @@ const show = (world, cells) => {
   };
 
   const {id, method} = world.cells.find((cell) => cell.id === cells[0]);
-  const motion = `${id.slice(0, -method.length - 1)}@${method}`;  // the motion's name, as `etude clip` expects it
+  // The motion's name, as `etude clip` expects it. WORLD@truth is the true motion, also if a method is called "truth".
+  const motion = method === 'truth' ? `${id}@` : `${id.slice(0, -method.length - 1)}@${method}`;
   const boxes = make('fieldset', {}, make('legend', {}, 'Shown'), ...world.bodies.map((body, i) => make('label', {},
       make('input', {type: 'checkbox', checked: chosen.has(i), onchange: (event) => {
         event.target.checked ? chosen.add(i) : chosen.delete(i);
