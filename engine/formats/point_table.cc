@@ -232,9 +232,9 @@ Result<PointColumns> FindPointColumns(const std::vector<std::string>& headings, 
                        : 'z',
                   Quote(found.points[p]));
   }
-  constexpr std::size_t kMostPoints = 1000;
-  if (found.points.size() > kMostPoints)
-    return Fail(place, "found {} points; allowed: at most {}", found.points.size(), kMostPoints);
+  constexpr std::size_t kMaxTablePoints = 1000;
+  if (found.points.size() > kMaxTablePoints)
+    return Fail(place, "found {} points; allowed: at most {}", found.points.size(), kMaxTablePoints);
   return found;
 }
 
@@ -281,22 +281,22 @@ std::string RemarkOn(const PointColumns& columns, const NumberRows& table) {
 }  // namespace
 
 bool IsPointTable(std::string_view text) {
-  constexpr std::size_t kFewestPoints = 3;
+  constexpr std::size_t kMinTablePoints = 3;
   std::map<std::string, int> axes;
   for (const std::string& heading : NamesOfColumns(HeadingLine(text))) {
     if (const auto found = CoordinateOf(heading)) axes[found->point] |= 1 << found->axis;
   }
   constexpr int kAllAxes = 7;
   return std::ranges::count(axes, kAllAxes, [](const auto& one) { return one.second; }) >=
-         static_cast<std::ptrdiff_t>(kFewestPoints);
+         static_cast<std::ptrdiff_t>(kMinTablePoints);
 }
 
 Result<PointTable> ReadPointTable(std::string_view text, const std::string& file) {
-  constexpr double kLatestTime = 1e19, kFarthest = 1e9, kNoTime = std::numeric_limits<double>::quiet_NaN();
-  constexpr std::size_t kMostRows = 1'000'000;
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kLatestTime, true));
-  if (table.RowCount() > kMostRows)
-    return Fail({file}, "found {} rows; allowed: at most {}", table.RowCount(), kMostRows);
+  constexpr double kMaxTableTime = 1e19, kMaxCoordinate = 1e9, kNoTime = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t kMaxTableRows = 1'000'000;
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxTableTime, true));
+  if (table.RowCount() > kMaxTableRows)
+    return Fail({file}, "found {} rows; allowed: at most {}", table.RowCount(), kMaxTableRows);
   // Find the columns. Columns of texts are no positions.
   const std::vector<std::string> headings = NamesOfColumns(table.heading);
   if (headings.size() != table.columns)
@@ -324,9 +324,9 @@ Result<PointTable> ReadPointTable(std::string_view text, const std::string& file
       const glm::dvec3 place(row[*x], row[*y], row[*z]);
       if (std::isnan(place.x + place.y + place.z)) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(place[axis]) <= kFarthest) continue;
+        if (std::abs(place[axis]) <= kMaxCoordinate) continue;
         return Fail({file, table.lines[t]}, "{} of {}: found {:.10g}; allowed: a number within ±{:g}", "xyz"[axis],
-                    Quote(columns.points[p]), place[axis], kFarthest);
+                    Quote(columns.points[p]), place[axis], kMaxCoordinate);
       }
       frame[p] = metres * place;
     }
