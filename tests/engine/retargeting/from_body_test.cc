@@ -66,6 +66,7 @@ TEST(FromBody, ThatLiesOnABenchStillLiesAfterAFile) {
     for (const Role hand : {Role::kLeftHand, Role::kRightHand}) pose[hand].y -= .4 + .2 * std::sin(.3 * t);
   }
   ASSERT_OK(read, testing::ReadBody(WriteBvh(RigClip(motion, rest, "bench")), "bench.bvh"));
+  EXPECT_EQ(read->found_up.evidence, UpEvidence::kFile) << "no posture can overrule Y";
   ASSERT_EQ(read->motion.poses.size(), motion.poses.size());
   for (const std::size_t t : {0u, 30u}) {
     const auto along = [t](const BodyMotion& of) { return of.poses[t][Role::kHead] - of.poses[t][Role::kHipCentre]; };
