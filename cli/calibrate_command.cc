@@ -7,6 +7,7 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/cameras/dlt.h"
+#include "engine/cameras/opencv_file.h"
 #include "tools/calibrate/calibrate_rig.h"
 
 namespace etude {
@@ -24,11 +25,12 @@ Json FactsOf(const Calibrated& rig) {
     const Camera& camera = rig.cameras[i].camera;
     const Intrinsics& in = camera.intrinsics;
     const Distortion& d = camera.distortion;
+    const std::vector<double> matrix = ParametersOf(camera).camera_matrix;  // as in the rig's file
     Json one = {{"camera", rig.cameras[i].name},
                 {"points", rig.points[i]},
                 {"rms_px", rig.rms_px[i]},
                 {"focal_px", {in.fx, in.fy}},
-                {"principal_px", {in.cx, in.cy}},
+                {"principal_px", {matrix[2], matrix[5]}},
                 {"focal_deviation_px", nullptr},
                 {"principal_deviation_px", nullptr},
                 {"disagreeing_pair", nullptr},

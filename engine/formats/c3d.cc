@@ -323,11 +323,14 @@ void AddLabels(const std::vector<std::string>& names, ParameterWriter& parameter
 }
 
 /// Returns the number of the first frame, by which C3D states its time; 1 if the time is negative or has no number.
-std::size_t FirstField(const MarkerMotion& motion) {
+std::size_t FirstField(double start_s, double rate_hz, std::size_t frames) {
   constexpr double kMaxField = 4e9;
-  const double field = std::round(motion.start_s.value_or(0) * motion.rate_hz) + 1;
-  return field >= 1 && field + static_cast<double>(motion.frames.size()) < kMaxField ? static_cast<std::size_t>(field)
-                                                                                     : 1;
+  const double field = std::round(start_s * rate_hz) + 1;
+  return field >= 1 && field + static_cast<double>(frames) < kMaxField ? static_cast<std::size_t>(field) : 1;
+}
+
+std::size_t FirstField(const MarkerMotion& motion) {
+  return FirstField(motion.start_s.value_or(0), motion.rate_hz, motion.frames.size());
 }
 
 /// Returns the parameter section; `data_block` is the number of the block at which the points begin.
@@ -359,6 +362,10 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
 }
 
 }  // namespace
+
+double StartInC3d(double start_s, double rate_hz, std::size_t frames) {
+  return (static_cast<double>(FirstField(start_s, rate_hz, frames)) - 1) / rate_hz;
+}
 
 std::string WriteC3d(const MarkerMotion& motion) {
   constexpr std::size_t kMaxWord = 65535;

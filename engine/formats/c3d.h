@@ -33,8 +33,12 @@ bool IsC3d(std::string_view bytes);
 /// 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
+/// Returns the start time, in seconds, that WriteC3d states for a motion that begins at `start_s`: C3D counts whole
+/// frames from 0 s, up to 4·10⁹.
+double StartInC3d(double start_s, double rate_hz, std::size_t frames);
+
 /// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres; POINT:Y_SCREEN states that Y points
-/// up, and the number of the first frame states the start time `start_s`. A marker that was not seen is written with
+/// up, and the number of the first frame states the start time (StartInC3d). A marker that was not seen is written with
 /// the residual −1. Names longer than 127 bytes are cut. Precondition: at most 65,535 markers.
 std::string WriteC3d(const MarkerMotion& motion);
 /// Writes a body's joints as a C3D file with one marker per role.

@@ -76,11 +76,17 @@ double StartOf(const SourceClip& source, const ConvertOptions& options) {
   return (source.made ? source.made->start_s.value_or(hidden_s) : 0) + std::round(trimmed_s * rate_hz) / rate_hz;
 }
 
-/// Describes when a motion begins, for a format without a clock; "" for other formats and for motions that begin at 0.
-std::string DescribeStart(double start_s, MotionFormat format) {
+/// Describes when a motion begins, for a format without a clock, and for C3D, which counts time in whole frames; "" if
+/// the output has the time of the input.
+std::string DescribeStart(double start_s, double rate_hz, std::size_t frames, MotionFormat format) {
   using enum MotionFormat;
-  if (start_s == 0 || (format != kBvh && format != kGlb && format != kBids)) return "";
-  return fmt::format("time 0 of the output is the time {:.6g} s of the input", start_s);
+  constexpr double kSame_s = 1e-6;
+  double written_s = start_s;
+  if (format == kBvh || format == kGlb || format == kBids) written_s = 0;
+  if (format == kC3d) written_s = StartInC3d(start_s, rate_hz, frames);
+  if (std::abs(written_s - start_s) < kSame_s) return "";
+  return fmt::format("time {:.6g} {}of the output is the time {:.10g} s of the input", written_s,
+                     written_s == 0 ? "" : "s ", start_s);
 }
 
 /// Adds the user's edits to the list of changes. `from_hz` is the clip's own rate; or it is the wanted rate if
@@ -117,7 +123,9 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   std::vector<Clip> clips;
   // Edit each clip. GLB requires metres and Y up, so clips that are not from a glTF file are converted.
   for (const SourceClip& source : sources) {
-    if (std::string said = DescribeStart(StartOf(source, options), format); !said.empty()) {
+    if (std::string said =
+            DescribeStart(StartOf(source, options), source.clip.rate_hz, source.clip.frames.size(), format);
+        !said.empty()) {
       converted.changes.push_back(std::move(said));
     }
     auto edited = Edited(source, options);
@@ -199,7 +207,8 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest, start_s);
     if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name, start_s);
-    if (std::string said = DescribeStart(start_s, format); !said.empty()) converted.changes.push_back(std::move(said));
+    if (std::string said = DescribeStart(start_s, motion.rate_hz, motion.poses.size(), format); !said.empty())
+      converted.changes.push_back(std::move(said));
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   AddEdits(open.body.rate_hz, options, converted.changes);

@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/cameras/camera_parameters.h"
 #include "engine/cameras/dlt.h"
+#include "engine/cameras/opencv_file.h"
 #include "engine/cameras/pairs_file.h"
 #include "engine/cameras/rig_doubts.h"
 #include "engine/cameras/rig_file.h"
@@ -148,6 +149,7 @@ std::string TextOf(const Calibrated& rig) {
     const Intrinsics& in = camera.intrinsics;
     const Distortion& d = camera.distortion;
     const CameraParameters p = ParametersIn(camera);
+    const std::vector<double> matrix = ParametersOf(camera).camera_matrix;  // as in the rig's file
     text += fmt::format("\n{}: reprojection error {:.3f} px RMS over {} points\n", rig.cameras[i].name, rig.rms_px[i],
                rig.points[i]);
     const auto& s = rig.deviations[i];
@@ -156,7 +158,7 @@ std::string TextOf(const Calibrated& rig) {
       return s ? fmt::format("{:.2f} ± {:.2f}", value, kOfNinetyFive * deviation) : fmt::format("{:.2f}", value);
     };
     text += fmt::format("  focal lengths    {}, {} px   principal point {}, {} px{}\n", with(in.fx, s ? s->fx : 0),
-                        with(in.fy, s ? s->fy : 0), with(in.cx, s ? s->cx : 0), with(in.cy, s ? s->cy : 0),
+                        with(in.fy, s ? s->fy : 0), with(matrix[2], s ? s->cx : 0), with(matrix[5], s ? s->cy : 0),
                         s ? "   (±: 95 % interval)" : "");
     if (!d.IsNone())
       text += fmt::format("  lens             k1 {:.5f}  k2 {:.5f}  p1 {:.6f}  p2 {:.6f}  k3 {:.5f}\n", d.k1, d.k2, d.p1, d.p2,

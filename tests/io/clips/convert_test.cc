@@ -93,6 +93,17 @@ TEST_F(ConvertTest, FormatsWithAClockKeepWhenAMotionBegins) {
   }
   ASSERT_OK(bvh, ConvertClips(*ReadClips(trc), MotionFormat::kBvh, options));
   EXPECT_THAT(bvh->changes, ::testing::Contains("time 0 of the output is the time 6.5 s of the input"));
+  // C3D counts whole frames, from 0 s on.
+  for (const auto& [begin_s, written] : {std::pair(0.117, "time 0.133333 s of the output is the time 0.117 s of the"),
+                                         {-1.0, "time 0 of the output is the time -1 s of the input"}}) {
+    const MarkerMotion odd = JointMarkers(raised, begin_s);
+    const auto sources = ReadClips(Write("odd.trc", WriteTrc(odd, "odd")));
+    ASSERT_TRUE(sources) << ToString(sources.error());
+    ASSERT_OK(c3d, ConvertClips(*sources, MotionFormat::kC3d, {}));
+    EXPECT_THAT(c3d->changes, ::testing::Contains(HasSubstr(written)));
+    ASSERT_OK(same, ConvertClips(*sources, MotionFormat::kTrc, {}));
+    EXPECT_THAT(same->changes, ::testing::Not(::testing::Contains(HasSubstr("of the output"))));
+  }
   // A part that begins before the body begins with the body; a part that ends before the body is refused.
   options.trim = TimeSpan{0.5, 1.5};
   ASSERT_OK(early, ReadClips(Write("early.npz", Convert(trc, MotionFormat::kNpz, options))));
