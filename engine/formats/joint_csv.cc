@@ -9,6 +9,7 @@
 
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/text.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
@@ -140,12 +141,12 @@ std::string WriteJointCsv(const BodyMotion& motion, double start_s) {
   return text;
 }
 
-bool IsJointCsv(std::string_view heading) {
+bool IsJointCsv(std::string_view text) {
   constexpr std::string_view kEnd = "_x_m";
   std::vector<std::string> roles;
   for (const Role role : AllRoles()) roles.emplace_back(RoleName(role));
   bool is_found = false;
-  for (const std::string& one : HeadingsOf(heading)) {
+  for (const std::string& one : HeadingsOf(FirstLine(text))) {
     if (!one.ends_with(kEnd)) continue;
     const std::string name = one.substr(0, one.size() - kEnd.size());
     if (std::ranges::find(roles, name) == roles.end() && NearestName(name, roles).empty()) return false;

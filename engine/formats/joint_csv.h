@@ -19,9 +19,9 @@ namespace etude {
 /// `start_s`.
 std::string WriteJointCsv(const BodyMotion& motion, double start_s = 0);
 
-/// Returns true if a line of headings names joints as WriteJointCsv does, perhaps with typing errors, which
+/// Returns true if the first line of headings names joints as WriteJointCsv does, perhaps with typing errors, which
 /// ReadJointCsv reports, and no other points.
-bool IsJointCsv(std::string_view heading);
+bool IsJointCsv(std::string_view text);
 
 /// The columns of a joint CSV file, found by their headings.
 struct JointCsvColumns {

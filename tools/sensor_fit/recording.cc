@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "engine/base/order_statistics.h"
-#include "engine/base/text.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/rigid_targets.h"
 #include "engine/formats/row_clock.h"
@@ -27,9 +26,6 @@ constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kRightArm,   T::kRightForearm, T::kRightForearm, T::kRightHand,   // right arm
     T::kLeftThigh,  T::kLeftTibia,    T::kLeftTibia,    T::kLeftFoot,    // left leg
     T::kRightThigh, T::kRightTibia,   T::kRightTibia,   T::kRightFoot};  // right leg
-
-/// Returns true if the text is a joint file, which has a line of headings.
-bool IsJointCsv(std::string_view text) { return FirstLine(text).find("_x_m") != std::string_view::npos; }
 
 TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   TwinMotion twin;
