@@ -174,7 +174,7 @@ std::string TextOf(const Calibrated& rig) {
     }
     text += fmt::format("  position         {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
     text += fmt::format("  as in paper B    f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",
-                        p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, Degrees(p.skew));
+                        p.focal_length, p.delta_u, p.delta_v, matrix[2], matrix[5], Degrees(p.skew));
     text += fmt::format("                   omega {:.3f}  phi {:.3f}  kappa {:.3f} deg   t {:.4f}, {:.4f}, {:.4f} m\n",
                Degrees(p.omega), Degrees(p.phi), Degrees(p.kappa), p.t.x, p.t.y, p.t.z);
   }
