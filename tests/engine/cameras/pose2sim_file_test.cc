@@ -206,7 +206,7 @@ TEST(Pose2SimFile, ReadsPlannedCameras) {
   EXPECT_TRUE(planned("name = 'left'\nignore = false\nfov_deg = 90\n" + seat));
   const std::string allowed = "Allowed: name, size, fov_deg, position, look_at, ignore";
   for (const auto& [line, key, hint] : {std::array{"positon = [9, 9, 9]", "positon", "; did you mean 'position'? "},
-                                        {"roll_deg = 90", "roll_deg", ". "},
+                                        {"roll_deg = 90", "roll_deg", "; did you mean 'fov_deg'? "},
                                         {"distortions = [-0.4, 0.1, 0, 0]", "distortions", ". "},
                                         {"matrix = [[5000, 0, 400], [0, 5000, 300], [0, 0, 1]]", "matrix", ". "},
                                         {"fisheye = true", "fisheye", ". "}}) {
